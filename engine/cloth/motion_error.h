@@ -21,15 +21,20 @@ struct Companions {
     std::uint32_t companion;
     std::uint32_t coarser;  ///< 0: there is none
 };
-/// Returns those beside a frame of so many substeps: a quarter and an eighth, where there are enough. Explicit steps,
-/// which soften the cloth where they are fewer than `auto` takes, have a companion with half as many more instead.
+/// Returns those beside a frame of so many substeps: about a quarter and an eighth, where there are enough. Explicit
+/// steps, which soften the cloth where they are fewer than `auto` takes, have a companion with half as many more
+/// instead.
 Companions companions_of(const Method& method, std::uint32_t substeps);
 
 /// Returns Richardson's estimate of the error of n substeps. An error that falls with n to the power p has
 /// `apart` = C (n_c^-p - n^-p) from the companion, and that `further` = C (n_cc^-p - n_c^-p) from the coarser one; the
-/// two tell p, taken between 0.7 (contact, and errors that substeps so long hardly show) and 3 (free motion has 2, solves
-/// that come to converge more). Without a coarser one p is 1.4, the mean of what scenes showed.
+/// two tell p, taken between 0.7 (contact, and errors that substeps so long hardly show) and 3 (free motion has 2,
+/// solves that come to converge more). Without a coarser one p is 1.4, the mean of what scenes showed.
 double richardson_error(const Method& method, std::uint32_t substeps, double apart, double further);
+
+/// Returns whether runs are compared at the end of frame `last` of a segment: at that of a probe, and as often as
+/// probes are long, since every comparison waits for the device.
+bool compares_at(const SimulationModel& model, std::uint32_t last, bool probes);
 
 class MotionError {
   public:
@@ -43,7 +48,8 @@ class MotionError {
     double error() const { return error_; }
     /// Returns the estimate over what the motion's limit allows until then, of the worst cloth.
     double share() const { return share_; }
-    /// Returns what it allows until then, m: the limit (m/s) times the time.
+    /// Returns what it allows until then, m: the limit (m/s) times the time, of half a second at least, before which an
+    /// error is about as large as it will be then.
     double allowed() const { return share_ > 0 ? error_ / share_ : std::numeric_limits<double>::quiet_NaN(); }
 
     /// Writes or reads what it knows. Returns whether what was read can be.

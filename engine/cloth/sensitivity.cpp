@@ -6,10 +6,11 @@ namespace drape {
 
 namespace {
 
-/// The disturbed run begins when the estimated error is this share of what the motion's limit allows.
-constexpr double matters = 0.5;
-/// Runs that part by this share of the estimated error are as far apart as any.
-constexpr double as_far = 0.3;
+/// The disturbed run begins when the estimated error is this share of what is allowed, where the control begins to act
+/// on it.
+constexpr double matters = 0.7;
+/// Runs that were a millionth apart and part by this share of the estimated error soon part by all of it.
+constexpr double as_far = 0.1;
 /// s: without having parted by `on_the_way` of it, the run ends after the first time, in any case after the second.
 constexpr double patience = 1, most_patience = 3, on_the_way = 0.01;
 /// s until it may begin again.

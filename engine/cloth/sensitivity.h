@@ -1,8 +1,7 @@
 // Tells chaos from error. Where cloth crumples, two motions that differ by nothing part, however exactly each is
-// computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it a third run is begun
-// where the error first matters: the run as it is then, disturbed by a millionth of the cloth's size, with the run's
-// own substeps. If it parts as far as the estimated error says, positions have no truth there, and the error is the
-// motion's.
+// computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it another run is begun
+// where the error first matters: the companion as it is then, disturbed by a millionth of the cloth's size. If the two
+// part as far as the estimated error says, positions have no truth there, and the error is the motion's.
 #pragma once
 
 #include <cstdint>

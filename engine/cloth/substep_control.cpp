@@ -173,7 +173,7 @@ SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
 }
 
 void SubstepControl::accumulated(double share) {
-    constexpr double comfortable = 0.7, strictest = 8, leap = 0.1;
+    constexpr double comfortable = 0.7, strictest = 1, leap = 0.1;
     strictness_ = std::clamp(share / comfortable, 1.0, strictest);
     if (share > share_ + leap && strictness_ > 1) until_probe_ = 0;
     if (resolves_) follow_share(share);

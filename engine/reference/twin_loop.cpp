@@ -95,16 +95,15 @@ void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
     const Companions with = companions_of(row_of(model_.scene.solver.method), segment.substeps);
     follow(companion_, with.companion);
     if (with.coarser > 0) follow(coarser_, with.coarser);
+    if (sensitivity_.runs()) follow(disturbed_, with.companion);
+    if (!compares_at(model_, last, segment.probes)) return note_motion(position_error_, sensitivity_, effort);
     const std::vector<double> further =
         with.coarser > 0 ? differences(companion_.twin, coarser_.twin) : std::vector<double>();
     position_error_.saw(last, segment.substeps, differences(end, companion_.twin), further);
-    if (sensitivity_.runs()) {
-        follow(disturbed_, segment.substeps);
-        sensitivity_.saw(last, differences(end, disturbed_.twin), position_error_);
-    }
+    if (sensitivity_.runs()) sensitivity_.saw(last, differences(companion_.twin, disturbed_.twin), position_error_);
     if (sensitivity_.begins(last, position_error_)) {
         sensitivity_.begin(last);
-        disturbed_ = {end, segment.substeps};
+        disturbed_ = companion_;
         disturbed_.twin.disturb();
     }
     control_.accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());

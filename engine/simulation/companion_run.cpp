@@ -54,13 +54,16 @@ void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t count, s
     }
 }
 
-std::vector<double> FrameLoop::follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
-                                                      const Finished& finished) {
+Companions FrameLoop::follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                                             const Finished& finished) {
     const Companions with = companions_of(row_of(model_.scene.solver.method), substeps);
     follow(StateSet::companion, frame, count, with.companion, finished);
-    if (with.coarser == 0) return {};
-    follow(StateSet::coarser, frame, count, with.coarser, finished);
-    return compared(AttemptStep::compare_coarser, finished);
+    if (with.coarser > 0) follow(StateSet::coarser, frame, count, with.coarser, finished);
+    return with;
+}
+
+std::vector<double> FrameLoop::compared_companions(const Companions& with, const Finished& finished) {
+    return with.coarser > 0 ? compared(AttemptStep::compare_coarser, finished) : std::vector<double>();
 }
 
 std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finished) {
@@ -73,17 +76,18 @@ std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finish
 void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
-    const std::vector<double> further = follow_with_companions(frame, segment.frame_count, segment.substeps, finished);
+    const Companions with = follow_with_companions(frame, segment.frame_count, segment.substeps, finished);
+    if (sensitivity_.runs()) follow(StateSet::disturbed, frame, segment.frame_count, with.companion, finished);
+    if (!compares_at(model_, last, segment.probes)) return;
+    const std::vector<double> further = compared_companions(with, finished);
     position_error_.saw(last, segment.substeps, compared(AttemptStep::compare_companion, finished), further);
-    if (sensitivity_.runs()) {
-        follow(StateSet::disturbed, frame, segment.frame_count, segment.substeps, finished);
+    if (sensitivity_.runs())
         sensitivity_.saw(last, compared(AttemptStep::compare_disturbed, finished), position_error_);
-    }
     if (sensitivity_.begins(last, position_error_)) {
         sensitivity_.begin(last);
         const std::uint32_t slot = take_slot(finished);
         slots_.submit(slot, {commands(AttemptStep::disturb, slot)});
-        beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = segment.substeps;
+        beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = with.companion;
     }
     control_->accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());
 }

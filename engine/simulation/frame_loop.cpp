@@ -356,7 +356,8 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
             continue;
         }
         std::vector<double> further;
-        if (model_.has_companions() && frame > 0) further = follow_with_companions(frame, 1, state_substeps_, finished);
+        if (model_.has_companions() && frame > 0)
+            further = compared_companions(follow_with_companions(frame, 1, state_substeps_, finished), finished);
         const std::uint32_t slot = take_slot(finished);
         submit(slot, frame, kind_of(frame, output, cutting), output);
         in_flight_[slot]->further = std::move(further);

@@ -236,9 +236,11 @@ class FrameLoop {
     Frame build_beside(const SimulationModel& run, StateSet set);
     /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
     void follow_segment(std::uint32_t frame, const Finished& finished);
-    /// Simulates the companions of frames from `frame` on. Returns how far they are apart, by cloth, m.
-    std::vector<double> follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
-                                               const Finished& finished);
+    /// Simulates the companions of frames from `frame` on.
+    Companions follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
+                                      const Finished& finished);
+    /// Returns how far the two are apart, by cloth, m; nothing where there is but one.
+    std::vector<double> compared_companions(const Companions& with, const Finished& finished);
     /// Simulates frames in a set.
     void follow(StateSet set, std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
                 const Finished& finished);

@@ -68,20 +68,19 @@ void add_state_copies(graph::Graph& graph, ClothState& state, bool back) {
 
 void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     std::vector<Copy> copies;
-    graph::Handle position;
     for (const FieldRow& row : cloth_fields()) {
         if (row.life != FieldLife::state || !state[row.field].valid()) continue;
-        const graph::Handle live = state[row.field];
-        copies.push_back(
-            copy_between(graph, live, graph.image(in_set(declaration_of(graph, live), StateSet::disturbed))));
+        const graph::ImageDeclaration live = declaration_of(graph, state[row.field]);
+        copies.push_back(copy_between(graph, graph.image(in_set(live, StateSet::companion)),
+                                      graph.image(in_set(live, StateSet::disturbed))));
     }
     add_copies(graph, state, "begin disturbed run", copies);
-    position = copies.front().to;
     static_assert(static_cast<int>(Field::position) == 0);
+    graph::Handle from = copies.front().from, to = copies.front().to;
     const glsl::DisturbPush push{state.model->grid.size(), disturbance(*state.model)};
     add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp"), push,
                      {state.model->grid.columns(), state.model->grid.rows(), state.count},
-                     {&state, nullptr, {}, {{"disturbed_position", &position}}});
+                     {&state, nullptr, {}, {{"position", &from}, {"disturbed_position", &to}}});
 }
 
 constexpr const char* coarse_run = " of the coarse run";
@@ -125,12 +124,13 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptSt
     for (const ContactRow& row : contact_fields()) {
         if (row.life != FieldLife::state) continue;
         const graph::BufferDeclaration live = graph.resources()[contact[row.field].resource].buffer;
+        const bool begins = step == AttemptStep::disturb;
+        const graph::Handle here = begins ? graph.buffer(in_set(live, StateSet::companion)) : contact[row.field];
         const graph::Handle kept =
-            step == AttemptStep::disturb
-                ? graph.buffer(in_set(live, StateSet::disturbed))
-                : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
-        const graph::Handle from = back ? kept : contact[row.field];
-        const auto to = std::make_shared<graph::Handle>(back ? contact[row.field] : kept);
+            begins ? graph.buffer(in_set(live, StateSet::disturbed))
+                   : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
+        const graph::Handle from = back ? kept : here;
+        const auto to = std::make_shared<graph::Handle>(back ? here : kept);
         const std::string name = back                        ? "restore contact"
                                  : step == AttemptStep::keep ? "keep contact"
                                                              : "disturb contact";
@@ -174,7 +174,7 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case AttemptStep::disturb:
             return add_disturb(graph, pipelines, state);
         case AttemptStep::compare_disturbed:
-            return add_compare(graph, pipelines, state, state[Field::position],
+            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
                                position_in(graph, state, StateSet::disturbed));
     }
 }

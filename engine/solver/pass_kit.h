@@ -75,7 +75,7 @@ enum class StateSet : std::uint8_t {
     run,        ///< what is handed out
     companion,  ///< with other substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
     coarser,    ///< with half of those: how far these two are apart tells how errors fall with substeps
-    disturbed,  ///< begun with next to nothing between, at times: tells chaos from error (cloth/sensitivity.h)
+    disturbed,  ///< the companion but for next to nothing, at times: tells chaos from error (cloth/sensitivity.h)
 };
 inline constexpr std::size_t state_set_count = 4;
 
