@@ -147,7 +147,7 @@ TEST(ClosedLoop, WhatMayPassAColliderIsDoneAgain) {
         for (std::size_t i = 1; i < positions.size(); i += 4) EXPECT_GT(positions[i], 0);
 }
 
-/// Two cloths of one kind, alike and unlike, share dispatches (cloth/together.h), and are kept, restored and compared at once.
+/// Two cloths, alike and unlike, share dispatches (cloth/together.h), and are kept, restored and compared at once.
 TEST(ClosedLoop, WithClothsThatAreSimulatedTogether) {
     SceneDescription scene = everything();
     scene.cloths.push_back(scene.cloths[0]);
