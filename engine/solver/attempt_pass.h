@@ -21,7 +21,8 @@ std::string difference_readback_name(const std::string& state);
 
 /// Keeps, or takes back, what contact between the cloths hands from frame to frame.
 void add_contact_copies(graph::Graph& graph, ContactHandles& contact, bool back);
+/// `first_change`: place in `attempt` of the change of the state's first cloth; the others' follow.
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step);
+                 AttemptStep step, std::size_t first_change);
 
 }  // namespace drape
