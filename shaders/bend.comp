@@ -10,7 +10,7 @@
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(BendPush)
+CLOTH_CONSTANTS(BendPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -13,7 +13,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const bool again = false;  // the second round
 layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation takes, 32 at most
-PUSH_CONSTANTS(CollisionPush)
+CLOTH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -121,6 +121,7 @@ vec4 led_by_boxes(ivec2 texel) {
 }
 
 void main() {
+    push.first = given.first + push.list;
     read_boxes();
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;

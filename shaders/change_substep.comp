@@ -17,7 +17,7 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D displacement_out
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_remainder;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D end_excess_in;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D end_excess_out;
-layout(set = 0, binding = 5, std430) readonly buffer Attempt { SubstepChange attempt[]; };  // by cloth
+layout(set = 0, binding = 5, std430) readonly buffer Attempt { SubstepChange attempt[]; };
 #ifdef SECOND_ORDER
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_before;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
@@ -26,7 +26,9 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    ChangedSubstep changed = changed_substep(LOAD(displacement_in, texel).xyz, LOAD(end_excess_in, texel).xyz, attempt[push.cloth]);
+    SubstepChange change = attempt[push.cloth + int(gl_WorkGroupID.z)];
+    ChangedSubstep changed =
+        changed_substep(LOAD(displacement_in, texel).xyz, LOAD(end_excess_in, texel).xyz, change);
     imageStore(displacement_out, placed(texel), vec4(changed.displacement, 0.0f));
     imageStore(displacement_remainder, placed(texel), vec4(0.0f, 0.0f, 0.0f, 0.0f));
     imageStore(end_excess_out, placed(texel), vec4(changed.excess, 0.0f));

@@ -16,7 +16,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
 layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation takes, 32 at most
-PUSH_CONSTANTS(CollisionPush)
+CLOTH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
@@ -193,6 +193,7 @@ bool meet_all(ivec2 texel, bool follows) {
 }
 
 void main() {
+    push.first = given.first + push.list;
     read_colliders(push.first);
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;

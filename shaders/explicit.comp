@@ -12,7 +12,7 @@
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
-PUSH_CONSTANTS(ExplicitPush)
+CLOTH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/substep_state.h"
 

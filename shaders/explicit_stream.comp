@@ -17,7 +17,7 @@
 #include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(ExplicitPush)
+CLOTH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/row_bands.h"
 #include "include/state_store.h"

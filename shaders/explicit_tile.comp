@@ -13,7 +13,7 @@
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
-PUSH_CONSTANTS(ExplicitPush)
+CLOTH_CONSTANTS(ExplicitPush)
 #define TOGETHER
 #include "include/state_store.h"
 

@@ -8,7 +8,7 @@
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(ForcePush)
+CLOTH_CONSTANTS(ForcePush)
 #define TOGETHER
 #include "include/strips.h"
 #define IN_PLACE

@@ -19,7 +19,7 @@
 #include "include/push.h"
 
 layout(local_size_x = line_group_width) in;
-PUSH_CONSTANTS(LinePush)
+CLOTH_CONSTANTS(LinePush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

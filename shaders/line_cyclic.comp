@@ -16,7 +16,7 @@
 #include "include/verlet.h"
 
 layout(local_size_x = cyclic_least_width, local_size_y = 1, local_size_x_id = 0, local_size_y_id = 1) in;
-PUSH_CONSTANTS(LinePush)
+CLOTH_CONSTANTS(LinePush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -17,7 +17,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-PUSH_CONSTANTS(ReleasePush)
+CLOTH_CONSTANTS(ReleasePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
 layout(set = 0, binding = 2, std430) readonly buffer PinnedParticles { PinnedParticle pinned_particles[]; };
@@ -75,10 +75,12 @@ vec3 pull_of_springs(ivec2 cloth, ivec2 texel) {
 
 void main() {
     int particle = int(gl_GlobalInvocationID.x);
-    if (particle >= push.particle_count) return;
+    if (particle >= given.particle_count) return;
     ivec4 index = pinned_particles[particle].index;
+    int cloth = index.w / given.grid.y;
+    push = constants_of(uint(cloth));  // a list of pins is of all cloths
     vec4 rest = pinned_particles[particle].rest;
-    PinMotion motion = pin_motions[push.motion_first + index.z];
+    PinMotion motion = pin_motions[given.motion_first + index.z];
     if (motion.held.x != 0.0f || rest.w == 0.0f) return;
     vec4 position = imageLoad(position_in, index.xy);
     if (position.w != 0.0f) return;
@@ -89,7 +91,7 @@ void main() {
     pull = pull_of_springs(ivec2(0, index.w), index.xy);
 #endif
 #ifdef SECOND_ORDER
-    imageAtomicMax(line_control, ivec2(control_hold, index.w / push.grid.y), line_hold_release);
+    imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
 #endif
     float surplus = release_surplus(motion);
     precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;

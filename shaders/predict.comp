@@ -9,7 +9,7 @@
 #include "include/bdf2.h"
 #include "include/push.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(PredictPush)
+CLOTH_CONSTANTS(PredictPush)
 #define TOGETHER
 #include "include/strips.h"
 #define IN_PLACE

@@ -10,7 +10,7 @@
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(SpringPush)
+CLOTH_CONSTANTS(SpringPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -42,7 +42,7 @@ void main() {
 #endif
     float tension = 0.0f;
 #ifdef TENSION
-    if (push.first_iteration == 0) tension = LOAD(tension_in, first).x;
+    if (given.first_iteration == 0) tension = LOAD(tension_in, first).x;
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
     precise float weight_sum = weight_first + weight_second;

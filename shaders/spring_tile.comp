@@ -10,7 +10,7 @@
 #include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(AllSpringsPush)
+CLOTH_CONSTANTS(AllSpringsPush)
 #define TOGETHER
 #include "include/state_store.h"
 

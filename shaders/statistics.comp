@@ -14,7 +14,7 @@
 #endif
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(StatisticsPush)
+CLOTH_CONSTANTS(StatisticsPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -12,7 +12,7 @@
 #include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(TwistPush)
+CLOTH_CONSTANTS(TwistPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

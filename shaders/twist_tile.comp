@@ -12,7 +12,7 @@
 #include "include/push.h"
 #include "include/spring.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(AllTwistPush)
+CLOTH_CONSTANTS(AllTwistPush)
 #define TOGETHER
 #include "include/state_store.h"
 

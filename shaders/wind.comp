@@ -15,7 +15,7 @@ layout(constant_id = 0) const bool advance = false;    // the positions still la
 layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation takes
 layout(constant_id = 21) const int strip_columns = 1;  // columns that it takes, most_columns at most
 const int most_columns = 2;
-PUSH_CONSTANTS(WindPush)
+CLOTH_CONSTANTS(WindPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -102,7 +102,7 @@ void store_row(Shares above, Shares below, int y) {
 }
 
 void main() {
-    wind_velocity = wind[push.substep].xyz;  // before anything branches (docs/devices.md)
+    wind_velocity = wind[given.substep].xyz;  // before anything branches (docs/devices.md)
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
     int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
     if (first_column >= push.grid.x || y >= end) return;

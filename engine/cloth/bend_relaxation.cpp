@@ -57,7 +57,7 @@ void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& setti
         const double wanted = wanted_compliance(constant, cloth, settings);
         scheme.once.push_back(
             {StepKind::bend, glsl::BendPush{cloth.grid.size(), pass.element_count, bend_axes[axis].offset, pass.colour,
-                                            pass.axis, pass_compliance(wanted, share, bend_pass_compliance)}});
+                                            pass.axis, pass_compliance(wanted, share, bend_pass_compliance), 0}});
     }
     const float compliance = pass_compliance(twist, share, twist_pass_compliance);
     add_twists(cloth, compliance, compliance, scheme);

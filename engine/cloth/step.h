@@ -101,6 +101,8 @@ struct Step {
     Kernel kernel = Kernel::plain;
     /// It is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
+    /// The constants of each of those; none: all have the same.
+    std::vector<StepConstants> own{};
 
     /// Returns the step's constants. Throws std::bad_variant_access when they are not a `Push`.
     template <class Push>

@@ -69,12 +69,6 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
-    Judgement strict = judgement;
-    strict.motion *= strictness_;
-    return judge_strictly(strict);
-}
-
-SubstepControl::Verdict SubstepControl::judge_strictly(const Judgement& judgement) {
     if (lags_alike(judgement)) until_lag_ = lag_pause * probe_length_;
     const double lag = until_lag_ == 0 ? judgement.lag : 0;
     passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
@@ -173,9 +167,6 @@ SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
 }
 
 void SubstepControl::accumulated(double share) {
-    constexpr double comfortable = 0.7, strictest = 1, leap = 0.1;
-    strictness_ = std::clamp(share / comfortable, 1.0, strictest);
-    if (share > share_ + leap && strictness_ > 1) until_probe_ = 0;
     if (resolves_) follow_share(share);
     share_ = share;
 }

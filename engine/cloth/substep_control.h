@@ -59,9 +59,8 @@ class SubstepControl {
     /// Keeps the frames although the last judgement says no.
     void keep_anyway();
     /// Tells how much of what its limit allows the motion's error has come to since the start, after a segment is kept
-    /// (cloth/motion_error.h); 0 where that is the motion's own doing. Errors that grow afterwards are not in a probe,
-    /// so where they come near the limit probes are judged more strictly, and where they are far from it there are
-    /// fewer.
+    /// (cloth/motion_error.h); 0 where that is the motion's own doing. Far from the limit there are fewer probes, and
+    /// methods that have none take more substeps near it.
     void accumulated(double share);
 
     /// Hands everything that changes, between segments, to `archive(members...)`, which writes or reads it
@@ -71,7 +70,7 @@ class SubstepControl {
         archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
                 probed_.motion, top_motion_, hopeless_, only_motion_failed_, turned_back_, segment_.substeps,
                 segment_.frame_count, segment_.probes, interval_, until_probe_, since_fewer_, patience_, easy_,
-                passage_rung_, until_lag_, share_, strictness_);
+                passage_rung_, until_lag_, share_);
         return std::max({rung_, began_, tried_, passage_rung_, only_motion_failed_.value_or(0)}) < rungs_.size() &&
                rung_ >= lowest_;
     }
@@ -85,7 +84,6 @@ class SubstepControl {
     bool futile(const Judgement& judgement) const;
     double wanted_factor(const Judgement& judgement) const;
     void follow_share(double share);
-    Verdict judge_strictly(const Judgement& judgement);
     Verdict accept_unpredictable(const Judgement& judgement);
     Verdict take_best(const Judgement& judgement);
     bool worth_looking_back(const Judgement& judgement) const;
@@ -119,7 +117,6 @@ class SubstepControl {
     bool turned_back_ = false;  ///< it went back to an earlier one
     std::size_t needed_ = 0;    ///< the least rung that the segment's stretch may take
     double share_ = 0;          ///< of the allowed error that there is
-    double strictness_ = 1;     ///< factor on the motion's errors of probes
     /// The rung that the ways and lags of the last attempt ask for. It holds for frames while something goes by a
     /// collider fast, or meets fast, and those after have `rung_` again.
     std::size_t passage_rung_ = 0;

@@ -12,15 +12,55 @@ namespace {
 /// A cloth of more particles keeps its own dispatches, which cost little beside what they do (docs/devices.md).
 constexpr std::uint64_t most_particles = 128 * 128;
 
-bool alike(const Cloth& one, const Cloth& other) {
-    Cloth same = other;
-    same.name = one.name;
-    same.placement = one.placement;
-    same.velocity = one.velocity;
-    same.pins = one.pins;
-    same.appearance = one.appearance;
-    return same == one;
+bool have_same_shape(const Cloth& one, const Cloth& other) {
+    return one.grid == other.grid && one.holes == other.holes &&
+           one.self_collision.has_value() == other.self_collision.has_value();
 }
+
+float sign(float number) { return number > 0 ? 1.0f : 0.0f; }
+glsl::vec4 sign(glsl::vec4 numbers) { return {sign(numbers.x), sign(numbers.y), sign(numbers.z), sign(numbers.w)}; }
+
+/// Leaves of a step's constants what says which step it is, and by which pipeline it is taken: no numbers of the cloth
+/// but whether they are zero, where a variant or a specialization constant of the shader is about that.
+struct StructureOf {
+    StepConstants operator()(const glsl::ForcePush& push) const { return glsl::ForcePush{push.grid}; }
+    StepConstants operator()(const glsl::PredictPush& push) const { return glsl::PredictPush{push.grid}; }
+    StepConstants operator()(const glsl::ExplicitPush& push) const {
+        glsl::ExplicitPush structure{push.grid};
+        structure.relative_stiffness.z = sign(push.relative_stiffness.z);
+        structure.twist = sign(push.twist);
+        return structure;
+    }
+    StepConstants operator()(glsl::BendPush push) const {
+        push.compliance = 0;
+        return push;
+    }
+    StepConstants operator()(glsl::TwistPush push) const {
+        push.compliance = push.compliance_bdf2 = 0;
+        return push;
+    }
+    StepConstants operator()(const glsl::AllTwistPush& push) const { return glsl::AllTwistPush{push.grid}; }
+    StepConstants operator()(glsl::SpringPush push) const {
+        push.rest_length = push.compression = 0;
+        push.compliance = sign(push.compliance);
+        return push;
+    }
+    StepConstants operator()(const glsl::AllSpringsPush& push) const {
+        return glsl::AllSpringsPush{push.grid, 0, 0, sign(push.rest_length), sign(push.compliance)};
+    }
+    StepConstants operator()(const glsl::LinePush& push) const {
+        glsl::LinePush structure{push.grid, push.step, push.line_count, push.particle_count, push.seam, push.channel};
+        structure.bend = sign(push.bend);
+        return structure;
+    }
+    StepConstants operator()(const glsl::NestedPush& push) const {
+        return glsl::NestedPush{push.grid, push.block_count, push.first_pin, sign(push.rest_length)};
+    }
+    template <class Other>
+    StepConstants operator()(const Other& other) const {
+        return other;
+    }
+};
 
 /// Returns whether a step uses no other data than its constants, the images of the state and lists that can be joined.
 bool in_images(const Step& step) {
@@ -49,11 +89,45 @@ bool in_images(const Step& step) {
 
 bool same_constants(const StepConstants& one, const StepConstants& other) {
     return std::visit(
-        [&](const auto& constants) {
-            const auto* const others = std::get_if<std::decay_t<decltype(constants)>>(&other);
-            return others && std::memcmp(&constants, others, sizeof constants) == 0;
+        [&]<class Push>(const Push& constants) {
+            const auto* const others = std::get_if<Push>(&other);
+            return others && (std::is_empty_v<Push> || std::memcmp(&constants, others, sizeof constants) == 0);
         },
         one);
+}
+
+bool same_structure(const StepConstants& one, const StepConstants& other) {
+    return same_constants(std::visit(StructureOf(), one), std::visit(StructureOf(), other));
+}
+
+bool same_steps(const std::vector<MethodStep>& one, const std::vector<MethodStep>& other) {
+    return std::ranges::equal(one, other, [](const MethodStep& a, const MethodStep& b) {
+        return a.kind == b.kind && same_structure(a.constants, b.constants);
+    });
+}
+
+/// Boxes and rounds are the same, whose pins may be elsewhere.
+bool same_rounds(const std::vector<glsl::ivec4>& one, const std::vector<glsl::ivec4>& other) {
+    return std::ranges::equal(one, other, {}, &glsl::ivec4::z, &glsl::ivec4::z);
+}
+
+/// The cloths need the same fields and take the same steps of the method.
+bool same_scheme(const MethodScheme& one, const MethodScheme& other) {
+    const auto fields = [](const MethodScheme& scheme) {
+        return std::tuple(scheme.spare_state, scheme.spare_displacement, scheme.spare_tension, scheme.second_order,
+                          scheme.line_scratch, scheme.carries_tension, scheme.release_stiffness.x > 0);
+    };
+    return fields(one) == fields(other) && same_steps(one.prediction, other.prediction) &&
+           same_steps(one.once, other.once) && same_steps(one.iterated, other.iterated) &&
+           same_rounds(one.nested_table, other.nested_table);
+}
+
+/// The schedule puts the same steps around those of the method.
+bool same_schedule(const ClothModel& one, const ClothModel& other) {
+    const auto steps = [](const ClothModel& cloth) {
+        return std::tuple(cloth.has_motion, cloth.has_release, cloth.tethers.empty(), cloth.edge_reach > 0);
+    };
+    return steps(one) == steps(other);
 }
 
 bool same_place(const Step& one, const Step& other) {
@@ -64,7 +138,7 @@ bool same_place(const Step& one, const Step& other) {
 
 bool same_step(const Step& one, const Step& other) {
     return in_images(one) && !one.conditional && same_place(one, other) &&
-           same_constants(one.constants, other.constants);
+           same_structure(one.constants, other.constants);
 }
 
 /// The steps that the cloths of a list still have to take in a substep, each cloth's in its order.
@@ -77,8 +151,7 @@ class Substep {
     void merge(std::vector<Step>& merged) {
         while (!is_done()) {
             if (all_are_at_one()) {
-                merged.push_back(*front(0));
-                merged.back().together = true;
+                merged.push_back(joined());
                 for (std::size_t& next : next_) ++next;
             } else if (!go_on_alone(false, merged)) {
                 go_on_alone(true, merged);
@@ -99,6 +172,15 @@ class Substep {
         for (std::size_t place = 0; place < steps_.size(); ++place)
             if (!front(place) || !same_step(*front(0), *front(place))) return false;
         return true;
+    }
+    /// The step that all cloths are at.
+    Step joined() const {
+        Step step = *front(0);
+        step.together = true;
+        for (std::size_t place = 0; place < steps_.size(); ++place) step.own.push_back(front(place)->constants);
+        const auto is_first = [&](const StepConstants& own) { return same_constants(own, step.constants); };
+        if (std::ranges::all_of(step.own, is_first)) step.own.clear();
+        return step;
     }
     /// Takes each cloth's next step where some other cloth will not come to such a step, or, with `all`, in any case.
     /// Returns whether it took any.
@@ -125,7 +207,28 @@ class Substep {
     std::vector<std::size_t> next_;
 };
 
+/// Puts a cloth into the list of those that it is alike, or begins one.
+template <class Alike>
+void put(std::size_t cloth, std::vector<std::vector<std::size_t>>& lists, const Alike& alike) {
+    const auto list =
+        std::ranges::find_if(lists, [&](const std::vector<std::size_t>& each) { return alike(each.front(), cloth); });
+    if (list == lists.end())
+        lists.push_back({cloth});
+    else
+        list->push_back(cloth);
+}
+
 }  // namespace
+
+bool have_same_numbers(const Cloth& one, const Cloth& other) {
+    Cloth same = other;
+    same.name = one.name;
+    same.placement = one.placement;
+    same.velocity = one.velocity;
+    same.pins = one.pins;
+    same.appearance = one.appearance;
+    return same == one;
+}
 
 std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene) {
     std::vector<std::vector<std::size_t>> lists;
@@ -135,14 +238,24 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
     for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
         const Cloth& cloth = scene.cloths[k];
         if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) continue;
-        const auto list = std::ranges::find_if(
-            lists, [&](const std::vector<std::size_t>& each) { return alike(scene.cloths[each.front()], cloth); });
-        if (list == lists.end())
-            lists.push_back({k});
-        else
-            list->push_back(k);
+        put(k, lists, [&](std::size_t first, std::size_t) { return have_same_shape(scene.cloths[first], cloth); });
     }
     std::erase_if(lists, [](const std::vector<std::size_t>& list) { return list.size() == 1; });
+    return lists;
+}
+
+std::vector<std::vector<std::size_t>> cloths_together(const SimulationModel& model) {
+    std::vector<std::vector<std::size_t>> lists;
+    for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
+        std::vector<std::vector<std::size_t>> parts;
+        for (const std::size_t cloth : alike)
+            put(cloth, parts, [&](std::size_t first, std::size_t other) {
+                const ClothModel &one = model.cloths[first], &another = model.cloths[other];
+                return same_schedule(one, another) && same_scheme(one.scheme, another.scheme);
+            });
+        for (std::vector<std::size_t>& part : parts)
+            if (part.size() > 1) lists.push_back(std::move(part));
+    }
     return lists;
 }
 

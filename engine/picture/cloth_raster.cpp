@@ -18,7 +18,7 @@ std::array<double, 2> rest_lengths(const ClothModel& cloth) {
 std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::vector<ClothState>& states) {
     std::vector<RasterCloth> cloths;
     for (const ClothState& state : states) {
-        const Cloth& cloth = model.scene.cloths[state.index];
+        const Cloth& cloth = model.scene.cloths[state.cloths.front()];
         const Grid& grid = state.model->grid;
         cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.thickness,
                           cloth.appearance, state[Field::position], state[Field::normal], state[Field::triangles],

@@ -64,8 +64,7 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& at
     if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_substep, slot));
     all.push_back(rung.frame.recorded->commands(slot));
     if (run.after) all.push_back(commands(*run.after, slot));
-    const std::vector<glsl::SubstepChange> changes = substep_changes(model_, state_substeps_, run.substeps);
-    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
+    solver_.write_changes(*pool_, slot, substep_changes(model_, state_substeps_, run.substeps));
     solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
     slots_.submit(slot, all);
     kept_ = kept_ || run.before == AttemptStep::keep;

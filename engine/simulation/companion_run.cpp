@@ -24,8 +24,7 @@ void FrameLoop::submit_beside(StateSet set, std::uint32_t slot, std::uint32_t fr
     if (model_.self_contact) all.push_back(commands(AttemptStep::keep, slot, set));
     if (substeps != before) all.push_back(commands(AttemptStep::change_substep, slot, set));
     all.push_back(rung.frame.recorded->commands(slot));
-    const std::vector<glsl::SubstepChange> changes = substep_changes(model_, before, substeps);
-    std::memcpy(pool_->buffer(attempt_name, slot).mapped().data(), changes.data(), std::span(changes).size_bytes());
+    solver_.write_changes(*pool_, slot, substep_changes(model_, before, substeps));
     solver_.write_inputs(*pool_, slot, frame, *rung.model);
     slots_.submit(slot, all);
 }

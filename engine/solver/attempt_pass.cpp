@@ -79,7 +79,7 @@ void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     graph::Handle from = copies.front().from, to = copies.front().to;
     const glsl::DisturbPush push{state.model->grid.size(), disturbance(*state.model)};
     add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp"), push,
-                     {state.model->grid.columns(), state.model->grid.rows(), state.count},
+                     {state.model->grid.columns(), state.model->grid.rows(), state.count()},
                      {&state, nullptr, {}, {{"position", &from}, {"disturbed_position", &to}}});
 }
 
@@ -91,24 +91,24 @@ void add_remember(graph::Graph& graph, ClothState& state) {
     add_copies(graph, state, "remember", copies);
 }
 
-void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs) {
+void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
+                        std::size_t first_change) {
     const vulkan::ComputePipeline& pipeline = pipelines.get(
         vulkan::variant_name("change_substep.comp", {{"second_order", state.model->scheme.second_order}}));
-    // Cloths together are damped alike, so the first one's change is all of theirs.
-    const glsl::ChangeSubstepPush push{state.model->grid.size(), static_cast<int>(state.index)};
+    const glsl::ChangeSubstepPush push{state.model->grid.size(), static_cast<int>(first_change)};
     add_compute_pass(graph, state.pass_name("change substep", "judge"), pipeline, push,
-                     {state.model->grid.columns(), state.model->grid.rows(), state.count}, {&state, nullptr, inputs});
+                     {state.model->grid.columns(), state.model->grid.rows(), state.count()}, {&state, nullptr, inputs});
 }
 
 void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle fine,
                  graph::Handle coarse) {
     const Grid& grid = state.model->grid;
     graph::Handle partials = graph.buffer<glsl::DifferenceRecord>(
-        difference_readback_name(state.name), difference_count(grid) * state.count, graph::Lifetime::host_output);
+        difference_readback_name(state.name), difference_count(grid) * state.count(), graph::Lifetime::host_output);
     constexpr auto rows = static_cast<std::uint32_t>(glsl::difference_rows);
     add_compute_pass(
         graph, state.pass_name("compare", "judge"), pipelines.get("difference.comp"), glsl::GridPush{grid.size()},
-        {grid.columns(), (grid.rows() + rows - 1) / rows, state.count},
+        {grid.columns(), (grid.rows() + rows - 1) / rows, state.count()},
         {&state, nullptr, {}, {{"position", &fine}, {"coarse_position", &coarse}, {"partials", &partials}}});
 }
 
@@ -152,14 +152,14 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptSt
 std::string difference_readback_name(const std::string& state) { return state + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step) {
+                 AttemptStep step, std::size_t first_change) {
     switch (step) {
         case AttemptStep::keep:
             return add_state_copies(graph, state, false);
         case AttemptStep::restore:
             return add_state_copies(graph, state, true);
         case AttemptStep::change_substep:
-            return add_change_substep(graph, pipelines, state, inputs);
+            return add_change_substep(graph, pipelines, state, inputs, first_change);
         case AttemptStep::remember:
             return add_remember(graph, state);
         case AttemptStep::compare:

@@ -25,7 +25,8 @@ std::string difference_readback_name(const std::string& state);
 
 /// Does what `step` does with the state for what contact between the cloths hands from frame to frame.
 void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptStep step);
+/// `first_change`: place in `attempt` of the change of the state's first cloth; the others' follow.
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step);
+                 AttemptStep step, std::size_t first_change);
 
 }  // namespace drape

@@ -11,6 +11,7 @@
 #include "cloth/step_flops.h"
 #include "cloth/together.h"
 #include "solver/attempt_pass.h"
+#include "solver/cloth_constants.h"
 #include "solver/cut_pass.h"
 #include "solver/kernel_choice.h"
 #include "solver/position_upload.h"
@@ -149,7 +150,7 @@ ClothState ClothSolver::state_of(std::size_t index) const {
     state.model = &run_->cloths[index];
     state.name = state.model->name;
     state.topology = &topologies_[index];
-    state.index = index;
+    state.cloths = {index};
     state.pinned_count = state.model->pinned.size();
     state.pin_count = state.model->dynamic_pins.size();
     state.buffered = kernels_.has(Kernel::buffer_store);
@@ -170,7 +171,11 @@ void ClothSolver::declare_cloth(graph::Graph& graph, std::size_t index, const Fr
 void ClothSolver::declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs) {
     const auto count = static_cast<std::uint32_t>(together.cloths.size());
     together.state = state_of(together.cloths.front());
-    together.state.count = count;
+    together.state.cloths = together.cloths;
+    together.state.unlike = together.unlike;
+    std::shared_ptr<ClothConstants>& constants = together.constants[run_->scene.solver.substeps];
+    if (!constants) constants = std::make_shared<ClothConstants>();
+    together.state.constants = constants;
     together.state.name = together_name(model_, together.cloths);
     for (const FieldRow& row : cloth_fields()) {
         if (!lies_together(row)) continue;
@@ -268,7 +273,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState* state, const Step& s
     add_step_pass(graph, pipelines_, state, run_->self_contact ? &contact_ : nullptr, inputs_, *run_, step);
     const ClothModel& cloth = state ? *state->model : run_->cloths.front();
     if (const double flops = step_flops(step, cloth); flops > 0)
-        graph.add_flops(flops * step.count * (state ? state->count : 1));
+        graph.add_flops(flops * step.count * (state ? state->count() : 1));
 }
 
 void ClothSolver::add_normals(graph::Graph& graph) {
@@ -277,7 +282,7 @@ void ClothSolver::add_normals(graph::Graph& graph) {
             pipelines_.get(vulkan::variant_name("normal.comp", {{"masked", state.masked()}}));
         const Grid& grid = state.model->grid;
         add_compute_pass(graph, state.pass_name("normals", "normals"), pipeline, glsl::GridPush{grid.size()},
-                         {grid.columns(), grid.rows(), state.count}, {&state});
+                         {grid.columns(), grid.rows(), state.count()}, {&state});
     });
 }
 
@@ -296,7 +301,11 @@ std::vector<std::span<const float>> ClothSolver::readback(const graph::ResourceP
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
-    for_each_dispatch([&](ClothState& state) { drape::add_attempt(graph, pipelines_, state, inputs_, step); });
+    std::size_t first = 0;
+    for_each_dispatch([&](ClothState& state) {
+        drape::add_attempt(graph, pipelines_, state, inputs_, step, first);
+        first += state.cloths.size();
+    });
     if (run_->self_contact) add_contact_attempt(graph, contact_, step);
 }
 
@@ -311,12 +320,19 @@ std::vector<double> ClothSolver::differences(const graph::ResourcePool& pool, st
     return all;
 }
 
+void ClothSolver::add_tension(graph::Graph& graph, ClothState& state) {
+    const Grid& grid = state.model->grid;
+    const std::vector<graph::PushConstants> each =
+        pushes_of(state, *run_, [](const ClothModel& cloth) { return *cloth.scheme.gathered_tension; });
+    graph::Handle own = own_constants(graph, state, "tension.comp", "tension", each);
+    add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get("tension.comp", own.valid()),
+                     each.front(), {grid.columns(), grid.rows(), state.count()},
+                     {&state, nullptr, {}, {{"constants", &own}}});
+}
+
 void ClothSolver::add_statistics(graph::Graph& graph) {
     for_each_dispatch([&](ClothState& state) {
-        const Grid& grid = state.model->grid;
-        if (const auto& push = state.model->scheme.gathered_tension)
-            add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get("tension.comp"), *push,
-                             {grid.columns(), grid.rows(), state.count}, {&state});
+        if (state.model->scheme.gathered_tension) add_tension(graph, state);
         drape::add_statistics(graph, pipelines_, state, inputs_, *run_);
         if (model_.adaptive())
             add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
@@ -395,7 +411,7 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
         if (!inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),
                          inputs.pins[cloth]);
-    write_pins(pool, slot, inputs, run.scene.solver.substeps);
+    write_together(pool, slot, inputs, run.scene.solver.substeps);
 }
 
 }  // namespace drape

@@ -90,6 +90,10 @@ class ClothSolver {
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                       const SimulationModel& run) const;
 
+    /// Writes how an attempt changes the length of each cloth's substeps.
+    void write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
+                       const std::vector<glsl::SubstepChange>& changes) const;
+
     /// Returns each cloth's statistics of the slot's last finished frame, whose graph must have had `add_statistics`.
     std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
         return statistics(pool, slot, model_);
@@ -121,7 +125,9 @@ class ClothSolver {
     /// here. A cloth's own handles to it are slices, and old until `take` renews them.
     struct Together {
         std::vector<std::size_t> cloths;
+        bool unlike;
         ClothState state;
+        std::map<std::uint32_t, std::shared_ptr<ClothConstants>> constants;  ///< by substeps per frame
     };
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs);
@@ -130,8 +136,9 @@ class ClothSolver {
     void upload_together(const graph::ResourcePool& pool) const;
     /// Returns what a field of cloths together starts with, cloth by cloth.
     std::vector<std::byte> start_of(const Together& together, const FieldRow& row) const;
-    void write_pins(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
-                    std::uint32_t substeps) const;
+    /// Writes the pins of cloths together, and the constants that each of them has its own of.
+    void write_together(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
+                        std::uint32_t substeps) const;
     ClothState state_of(std::size_t index) const;
     void find_together(const vulkan::Device& device);
     /// Gives a cloth the newest handles of the images that it shares.
@@ -153,6 +160,8 @@ class ClothSolver {
     void for_each_cloth(const Add& add);
     glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
                                              std::size_t cloth) const;
+    /// Adds the tension that steps of a method do not keep, for the statistics.
+    void add_tension(graph::Graph& graph, ClothState& state);
     void add_dispatches(graph::Graph& graph, const Step& step);
     /// `state` is null where contact is of all cloths at once.
     void add_step(graph::Graph& graph, ClothState* state, const Step& step);

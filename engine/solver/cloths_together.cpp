@@ -1,10 +1,9 @@
 // The part of the solver that is about cloths simulated together: which they are, the handles that a cloth and its
-// image share, and the lists of all of them as one.
+// image share, the lists of all of them as one, and what the host writes for them.
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <functional>
 #include <stdexcept>
-#include <tuple>
 
 #include "cloth/together.h"
 #include "solver/cloth_solver.h"
@@ -30,23 +29,6 @@ std::vector<glsl::PinnedParticle> placed_pins(const ClothModel& cloth, int first
     return pins;
 }
 
-/// Returns lists of cloths that are alike, have the same contact with colliders, which depends on where they are
-/// placed, and take the same steps: all of them move pins or none does, and so on.
-std::vector<std::vector<std::size_t>> lists_of(const SimulationModel& model) {
-    std::vector<std::vector<std::size_t>> lists;
-    for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
-        std::map<std::tuple<std::size_t, float, bool, bool, bool, std::size_t>, std::vector<std::size_t>> parts;
-        for (const std::size_t index : alike) {
-            const ClothModel& cloth = model.cloths[index];
-            parts[{cloth.collider_list, cloth.edge_reach, cloth.has_motion, cloth.has_release, !cloth.tethers.empty(),
-                   cloth.scheme.nested_table.size()}]
-                .push_back(index);
-        }
-        for (auto& [key, part] : parts) lists.push_back(std::move(part));
-    }
-    return lists;
-}
-
 }  // namespace
 
 void ClothSolver::find_together(const vulkan::Device& device) {
@@ -55,14 +37,19 @@ void ClothSolver::find_together(const vulkan::Device& device) {
         return cloth.tethers.size() * count <= device.limits().maxTexelBufferElements &&
                state_obstacle(device, cloth.grid, static_cast<std::uint32_t>(count), buffered).empty();
     };
-    for (const std::vector<std::size_t>& alike : lists_of(model_)) {
+    const auto have_first_numbers = [&](std::size_t first, std::size_t cloth) {
+        return have_same_numbers(model_.scene.cloths[first], model_.scene.cloths[cloth]);
+    };
+    for (const std::vector<std::size_t>& alike : cloths_together(model_)) {
         // Halves, until they fit.
         std::size_t count = alike.size();
         while (count > 1 && !fit(model_.cloths[alike.front()], count)) count = (count + 1) / 2;
         for (std::size_t first = 0; count > 1 && first < alike.size(); first += count) {
             const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
-            const std::size_t some = std::min(count, alike.size() - first);
-            if (some > 1) together_.push_back({{begin, begin + static_cast<std::ptrdiff_t>(some)}, {}});
+            const auto end = begin + static_cast<std::ptrdiff_t>(std::min(count, alike.size() - first));
+            if (end - begin < 2) continue;
+            const bool unlike = !std::all_of(begin, end, std::bind_front(have_first_numbers, *begin));
+            together_.push_back({{begin, end}, unlike, {}, {}});
         }
     }
     together_of_.assign(model_.cloths.size(), together_.size());
@@ -157,8 +144,18 @@ void ClothSolver::upload_together(const graph::ResourcePool& pool) const {
         }
 }
 
-void ClothSolver::write_pins(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
-                             std::uint32_t substeps) const {
+void ClothSolver::write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
+                                const std::vector<glsl::SubstepChange>& changes) const {
+    std::vector<glsl::SubstepChange> all;  // in the order of for_each_dispatch
+    for (const Together& together : together_)
+        for (const std::size_t cloth : together.cloths) all.push_back(changes[cloth]);
+    for (std::size_t cloth = 0; cloth < changes.size(); ++cloth)
+        if (is_alone(cloth)) all.push_back(changes[cloth]);
+    std::memcpy(pool.buffer(attempt_name, slot).mapped().data(), all.data(), std::span(all).size_bytes());
+}
+
+void ClothSolver::write_together(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
+                                 std::uint32_t substeps) const {
     for (const Together& together : together_) {
         std::vector<glsl::PinMotion> all;  // of each substep, cloth by cloth
         for (std::size_t substep = 0; substep < substeps; ++substep)
@@ -171,6 +168,9 @@ void ClothSolver::write_pins(const graph::ResourcePool& pool, std::uint32_t slot
         const std::string name = resource_name(together.state, row_of(Field::pin_motions));
         if (pool.has(name))
             std::memcpy(pool.buffer(name, slot).mapped().data(), all.data(), all.size() * sizeof(glsl::PinMotion));
+        for (const auto& [constants, bytes] : *together.constants.at(substeps))
+            if (pool.has(constants))
+                std::memcpy(pool.buffer(constants, slot).mapped().data(), bytes.data(), bytes.size());
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,14 +16,17 @@
 
 namespace drape {
 
+/// Bytes by the buffer that holds them.
+using ClothConstants = std::map<std::string, std::vector<std::byte>>;
+
 /// The newest handles of one cloth's resources within the graph being built.
 struct ClothState {
     const ClothModel* model = nullptr;
     const CutTopology* topology = nullptr;
-    std::size_t index = 0;
-    /// Above 1 this is the state of cloths that are simulated together: `model` is the first one's, and the handles are
-    /// those of the images in which all lie below each other.
-    std::uint32_t count = 1;
+    /// With several this is the state of cloths that are simulated together: `model` is the first one's, and the
+    /// handles are those of the images in which all lie below each other.
+    std::vector<std::size_t> cloths;
+    std::uint32_t count() const { return static_cast<std::uint32_t>(cloths.size()); }
     std::string name;
     /// Particles that pins hold, and pins that move or let go, of all those cloths.
     std::size_t pinned_count = 0, pin_count = 0;
@@ -35,6 +39,10 @@ struct ClothState {
     std::uint32_t index_count = 0;  ///< of the triangles
     /// Field::iteration_sizes will hold these; the passes add them.
     std::shared_ptr<std::vector<glsl::uvec4>> iteration_sizes;
+    bool unlike = false;  ///< the cloths differ in numbers of the scene
+    /// Host inputs with constants of each cloth (solver/cloth_constants.h) will hold these; the passes add them.
+    std::shared_ptr<ClothConstants> constants;
+    std::map<std::string, graph::Handle> constant_buffers;
     /// Whether spring shares and cells are images.
     bool masked() const { return topology->masked(); }
     /// Makes the spare images the state, and the state's the spare ones.

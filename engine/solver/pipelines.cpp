@@ -20,18 +20,21 @@ std::array<std::uint32_t, 2> folded(std::uint64_t invocations) {
 }  // namespace
 
 const vulkan::ComputePipeline& Pipelines::get(const std::string& module,
-                                              const std::function<std::uint32_t(std::string_view)>& value) {
+                                              const std::function<std::uint32_t(std::string_view)>& value,
+                                              bool own_constants) {
     std::vector<vulkan::SpecializationConstant> constants;
-    for (const auto& [name, id] : vulkan::module_interface(module).constants) constants.push_back({name, value(name)});
+    for (const auto& [name, id] : vulkan::module_interface(module).constants)
+        constants.push_back({name, name == "has_constants" ? std::uint32_t{own_constants} : value(name)});
     const vulkan::ComputePipeline& pipeline = device_.compute_pipeline(module, constants);
     asked_for_.insert(&pipeline);
     return pipeline;
 }
 
-const vulkan::ComputePipeline& Pipelines::get(const std::string& module) {
-    return get(module, [&](std::string_view name) -> std::uint32_t {
+const vulkan::ComputePipeline& Pipelines::get(const std::string& module, bool own_constants) {
+    const auto value = [&](std::string_view name) -> std::uint32_t {
         throw std::logic_error(module + ": nobody gives constant " + std::string(name) + " a value");
-    });
+    };
+    return get(module, value, own_constants);
 }
 
 std::uint32_t Pipelines::strip_rows(std::size_t rounds_each) const {

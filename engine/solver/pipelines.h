@@ -21,11 +21,13 @@ using ShaderVariants = std::vector<std::pair<std::string_view, bool>>;
 class Pipelines {
   public:
     explicit Pipelines(const vulkan::Device& device) : device_(device) {}
-    /// The pipeline of a module (spirv/), specialised by the values of exactly those constants that the module has.
+    /// The pipeline of a module (spirv/), specialised by the values of exactly those constants that the module has;
+    /// `own_constants` is that of `has_constants` (solver/cloth_constants.h).
     const vulkan::ComputePipeline& get(const std::string& module,
-                                       const std::function<std::uint32_t(std::string_view constant)>& value);
-    /// The pipeline of a module that has no constants.
-    const vulkan::ComputePipeline& get(const std::string& module);
+                                       const std::function<std::uint32_t(std::string_view constant)>& value,
+                                       bool own_constants = false);
+    /// The pipeline of a module that has no constants but that.
+    const vulkan::ComputePipeline& get(const std::string& module, bool own_constants = false);
     /// How many different pipelines were asked for here.
     std::size_t size() const { return asked_for_.size(); }
 

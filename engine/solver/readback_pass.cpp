@@ -11,7 +11,7 @@ std::string readback_name(const std::string& state, std::string_view what) {
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what) {
     const Grid& grid = state.model->grid;
     const graph::Handle empty =
-        graph.buffer({readback_name(state.name, what), grid.particle_count() * state.count * sizeof(glsl::vec4),
+        graph.buffer({readback_name(state.name, what), grid.particle_count() * state.count() * sizeof(glsl::vec4),
                       graph::Lifetime::host_output});
     // The execute function is made before set-up runs, so it holds the place where the handle will be.
     const auto target = std::make_shared<graph::Handle>();
@@ -21,7 +21,7 @@ void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle im
             setup.read(image, graph::Access::transfer_read);
             *target = setup.write(empty, graph::Access::transfer_write);
         },
-        [image, target, width = grid.columns(), height = grid.rows() * state.count](graph::PassContext& context) {
+        [image, target, width = grid.columns(), height = grid.rows() * state.count()](graph::PassContext& context) {
             const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
             vkCmdCopyImageToBuffer(context.commands(), context.image(image).handle(), VK_IMAGE_LAYOUT_GENERAL,
                                    context.buffer(*target).handle(), 1, &region);

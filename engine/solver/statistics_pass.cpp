@@ -1,5 +1,6 @@
 #include "solver/statistics_pass.h"
 
+#include "solver/cloth_constants.h"
 #include "solver/step_row.h"
 
 namespace drape {
@@ -17,15 +18,19 @@ std::uint32_t partial_count(const Grid& grid) { return grid.columns() * strip_co
 
 graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
-    const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", inputs.colliders.valid()}}),
-        [&](std::string_view name) { return scene_constant(model, name).value(); });
+    const std::string module =
+        vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", inputs.colliders.valid()}});
+    const std::vector<graph::PushConstants> each =
+        pushes_of(state, model, [&](const ClothModel& cloth) { return statistics_push(model, cloth); });
+    graph::Handle own = own_constants(graph, state, module, "statistics", each);
+    const auto value = [&](std::string_view name) { return scene_constant(model, name).value(); };
+    const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of columns",
-                                                                 partial_count(state.model->grid) * state.count,
+                                                                 partial_count(state.model->grid) * state.count(),
                                                                  graph::Lifetime::transient);
-    add_compute_pass(graph, state.pass_name("statistics", "statistics"), pipeline, statistics_push(model, *state.model),
-                     {state.model->grid.columns(), strip_count(state.model->grid), state.count},
-                     {&state, nullptr, inputs, {{"partials", &records}}});
+    add_compute_pass(graph, state.pass_name("statistics", "statistics"), pipeline, each.front(),
+                     {state.model->grid.columns(), strip_count(state.model->grid), state.count()},
+                     {&state, nullptr, inputs, {{"partials", &records}, {"constants", &own}}});
     return records;
 }
 
@@ -39,7 +44,7 @@ graph::Handle add_sum(graph::Graph& graph, Pipelines& pipelines, const ClothStat
                       graph::Handle records, std::uint32_t count, graph::Handle result) {
     constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
     add_compute_pass(graph, state.pass_name(name, "statistics"), pipelines.get("statistics_sum.comp"),
-                     glsl::StatisticsSumPush{static_cast<int>(count)}, {chunk_count(count) * width, 1, state.count},
+                     glsl::StatisticsSumPush{static_cast<int>(count)}, {chunk_count(count) * width, 1, state.count()},
                      {.own = {{"partials", &records}, {"result", &result}}});
     return result;
 }
@@ -54,11 +59,11 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     const std::uint32_t partials = partial_count(state.model->grid), chunks = chunk_count(partials);
     if (chunks > 1) {
         const graph::Handle joined = graph.buffer<glsl::StatisticsRecord>(
-            state.name + "/statistics of chunks", chunks * state.count, graph::Lifetime::transient);
+            state.name + "/statistics of chunks", chunks * state.count(), graph::Lifetime::transient);
         records = add_sum(graph, pipelines, state, "statistics chunks", records, partials, joined);
     }
-    const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name), state.count,
-                                                                      graph::Lifetime::host_output);
+    const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name),
+                                                                      state.count(), graph::Lifetime::host_output);
     add_sum(graph, pipelines, state, "statistics sum", records, chunks > 1 ? chunks : partials, result);
 }
 

@@ -36,11 +36,12 @@ std::string uses_text(const KernelRow& kernel) {
         if (!is_variant(module.name, kernel)) continue;
         ++modules;
         std::set<std::string> used;
-        for (const auto& descriptor : vulkan::module_interface(std::string(module.name)).descriptors) {
+        const vulkan::ReflectedModule& interface = vulkan::module_interface(std::string(module.name));
+        for (const auto& descriptor : interface.descriptors) {
             const std::string name(resource_of(descriptor.name));
             uses[name].read |= descriptor.readable;
             uses[name].written |= descriptor.writable;
-            used.insert(name);
+            if (!interface.constants.contains("has_" + name)) used.insert(name);
         }
         for (const std::string& name : used) ++uses[name].modules;
     }
@@ -61,8 +62,9 @@ std::string step_document() {
         "# Which pass reads and writes what?\n\n"
         "The steps of a frame in the order of `StepKind` (`engine/cloth/step.h`), with the shaders that do them, and "
         "the\n"
-        "fields that these read, update and write. `[x]` is used by some variants of the shader only. The names are "
-        "those\n"
+        "fields that these read, update and write. `[x]` is used by some variants of the shader only; `[constants]` "
+        "are "
+        "those\nof cloths together, where they differ (`shaders/include/push.h`). The other names are those\n"
         "of `engine/cloth/cloth_state.cpp` and `contact_state.cpp` with underscores; a row of "
         "`engine/solver/step_rows.cpp`\n"
         "says where a name means another field, and where a step writes the spare field instead. `drape graph "

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "solver/cloth_constants.h"
 #include "solver/step_row.h"
 
 namespace drape {
@@ -26,6 +27,24 @@ graph::PushConstants push_of(const StepConstants& constants) {
                 return graph::PushConstants(push);
         },
         constants);
+}
+
+graph::PushConstants push_of(const StepRow& row, const StepPlace& place) {
+    return row.push ? row.push(place) : push_of(place.step.constants);
+}
+
+/// Returns what each of the cloths that take a step together is pushed in the frame's first substep.
+std::vector<graph::PushConstants> pushes_of_each(const StepRow& row, const StepPlace& place) {
+    if (!place.cloth || place.cloth->count() == 1) return {};
+    ClothState cloth = *place.cloth;
+    Step step = place.step;
+    step.substep = step.iteration = 0;
+    std::size_t own = 0;
+    return pushes_of(*place.cloth, place.model, [&](const ClothModel& model) {
+        cloth.model = &model;
+        if (!place.step.own.empty()) step.constants = place.step.own[own++];
+        return push_of(row, {step, &cloth, place.contact, place.model, place.device});
+    });
 }
 
 graph::PassName name_of(const StepRow& row, const StepPlace& place) {
@@ -89,13 +108,16 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const auto kernel = std::ranges::find(row.kernels, step.kernel, &KernelRow::kernel);
     if (kernel == row.kernels.end()) throw std::logic_error("a step has a kernel that its row has not");
     const StepPlace place{step, cloth, contact, model, pipelines};
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(module_of(*kernel, place), [&](std::string_view name) { return step_constant(place, name); });
+    const std::string module = module_of(*kernel, place);
+    const std::vector<graph::PushConstants> each = pushes_of_each(row, place);
+    graph::Handle own = each.empty() ? graph::Handle() : own_constants(graph, *cloth, module, row.label(place), each);
+    const auto value = [&](std::string_view name) { return step_constant(place, name); };
+    const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     const Turn turned = row.turn ? row.turn(place) : Turn::nothing;
-    PassResources resources{cloth, contact, inputs};
+    PassResources resources{cloth, contact, inputs, {{"constants", &own}}};
     resources.alias = [&](std::string_view name, bool written) { return alias_of(row, place, turned, name, written); };
-    add_compute_pass(graph, name_of(row, place), pipeline, row.push ? row.push(place) : push_of(step.constants),
-                     size_of(*kernel, place, pipeline), std::move(resources));
+    add_compute_pass(graph, name_of(row, place), pipeline, push_of(row, place), size_of(*kernel, place, pipeline),
+                     std::move(resources));
     if (cloth) turn(*cloth, turned);
 }
 

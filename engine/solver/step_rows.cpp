@@ -79,8 +79,14 @@ glsl::PinPush pins_of(Place p) {
 graph::PushConstants pin_push(Place p) { return pins_of(p); }
 graph::PushConstants release_push(Place p) {
     const glsl::PinPush pins = pins_of(p);
-    return glsl::ReleasePush{scheme_of(p).release_stiffness, p.cloth->model->grid.size(), pins.particle_count,
-                             pins.motion_first, p.cloth->model->reach()};
+    return glsl::ReleasePush{scheme_of(p).release_stiffness,
+                             p.cloth->model->grid.size(),
+                             pins.particle_count,
+                             pins.motion_first,
+                             p.cloth->model->reach(),
+                             0,
+                             0,
+                             0};
 }
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
 graph::PushConstants spring_push(Place p) {
@@ -89,7 +95,8 @@ graph::PushConstants spring_push(Place p) {
     return push;
 }
 graph::PushConstants contact_push(Place p, glsl::CollisionPush push) {
-    push.first = first_collider(p.model, *p.cloth->model, p.step.substep);
+    push.list = first_collider(p.model, *p.cloth->model, 0);
+    push.first = first_collider(p.model, *p.cloth->model, p.step.substep) - push.list;
     return push;
 }
 graph::PushConstants collision_push(Place p) {

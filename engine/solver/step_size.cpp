@@ -18,15 +18,15 @@ std::uint32_t parts(std::uint32_t size, std::uint32_t each) { return (size - 1) 
 glsl::ivec2 grid_of(const StepPlace& place) { return place.cloth->model->grid.size(); }
 
 DispatchSize of_cloths(const StepPlace& place, std::uint32_t width, std::uint32_t height) {
-    return {width, height, place.cloth->count};
+    return {width, height, place.cloth->count()};
 }
 
 std::size_t count_of(const SimulationModel& model, int kind) {
     return static_cast<std::size_t>(std::ranges::count(model.scene.colliders, kind, &Collider::kind));
 }
 
-std::span<const glsl::ivec4> nested_pins(const StepPlace& place) {
-    const std::span<const glsl::ivec4> table = place.cloth->model->scheme.nested_table;
+std::span<const glsl::ivec4> nested_pins(const StepPlace& place, const ClothModel& cloth) {
+    const std::span<const glsl::ivec4> table = cloth.scheme.nested_table;
     const auto first = static_cast<std::size_t>(place.step.push<glsl::NestedPush>().first_pin);
     return table.subspan(first, static_cast<std::size_t>(table[first].z));
 }
@@ -58,16 +58,19 @@ std::size_t step_rounds(const StepPlace& place) {
 std::uint32_t nested_group(const StepPlace& place) {
     constexpr int subgroup = 8, most = glsl::nested_group_width;
     int width = place.cloth->buffered ? subgroup : most;
-    const auto takes_too_many = [&](const glsl::ivec4& pin) {
-        return nested_rounds(place.cloth->model->scheme, place.step.push<glsl::NestedPush>(), {pin.x, pin.y}, width) >
-               most_loop_rounds;
+    const auto takes_too_many = [&](std::size_t index) {
+        const ClothModel& cloth = place.model.cloths[index];
+        return std::ranges::any_of(nested_pins(place, cloth), [&](const glsl::ivec4& pin) {
+            return nested_rounds(cloth.scheme, place.step.push<glsl::NestedPush>(), {pin.x, pin.y}, width) >
+                   most_loop_rounds;
+        });
     };
-    while (width < most && std::ranges::any_of(nested_pins(place), takes_too_many)) width *= 2;
+    while (width < most && std::ranges::any_of(place.cloth->cloths, takes_too_many)) width *= 2;
     return whole(width);
 }
 
 DispatchSize one_invocation(const StepPlace& place, const ComputePipeline&) {
-    return {1, 1, place.cloth ? place.cloth->count : 1};
+    return {1, 1, place.cloth ? place.cloth->count() : 1};
 }
 
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&) {
@@ -119,7 +122,9 @@ DispatchSize over_line_particles(const StepPlace& place, const ComputePipeline&)
 }
 
 DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pipeline) {
-    return of_cloths(place, static_cast<std::uint32_t>(nested_pins(place).size()) * pipeline.local_size()[0], 1);
+    return of_cloths(
+        place, static_cast<std::uint32_t>(nested_pins(place, *place.cloth->model).size()) * pipeline.local_size()[0],
+        1);
 }
 
 DispatchSize over_explicit_stream(const StepPlace& place, const ComputePipeline&) {

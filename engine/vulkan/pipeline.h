@@ -40,8 +40,10 @@ class Pipeline {
     VkPipelineLayout layout() const { return layout_; }
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
-    /// Returns the union over the stages, sorted by binding.
+    /// Returns the union over the stages, sorted by binding, of those that are used.
     const std::vector<ReflectedDescriptor>& descriptors() const { return descriptors_; }
+    /// Returns the bindings of storage buffers that are there but, as specialised, not used: any buffer will do.
+    const std::vector<std::uint32_t>& idle_bindings() const { return idle_bindings_; }
     const std::optional<ReflectedStruct>& push_constants() const { return push_constants_; }
     VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
 
@@ -57,6 +59,7 @@ class Pipeline {
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineBindPoint bind_point_;
     std::vector<ReflectedDescriptor> descriptors_;
+    std::vector<std::uint32_t> idle_bindings_;
     std::optional<ReflectedStruct> push_constants_;
     VkShaderStageFlags push_constant_stages_ = 0;
 
@@ -75,6 +78,8 @@ class ComputePipeline : public Pipeline {
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
+    /// Takes those descriptors out that the stage does not use as specialised.
+    void set_idle(const ShaderStage& stage);
     std::array<std::uint32_t, 3> local_size_{};
 };
 

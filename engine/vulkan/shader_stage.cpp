@@ -81,6 +81,13 @@ void ShaderStage::specialise(std::span<const SpecializationConstant> constants) 
                        values_.size() * sizeof(std::uint32_t), values_.data()};
 }
 
+bool ShaderStage::leaves_out(const ReflectedDescriptor& descriptor) const {
+    const auto constant = reflected_.constants.find("has_" + descriptor.name);
+    if (constant == reflected_.constants.end()) return false;
+    const auto entry = std::ranges::find(entries_, constant->second, &VkSpecializationMapEntry::constantID);
+    return entry == entries_.end() || values_[static_cast<std::size_t>(entry - entries_.begin())] == 0;
+}
+
 ShaderStage::~ShaderStage() { vkDestroyShaderModule(device_.handle(), module_, nullptr); }
 
 VkPipelineShaderStageCreateInfo ShaderStage::create_info() const {

@@ -27,6 +27,8 @@ class ShaderStage {
     const std::string& module() const { return name_; }
     /// Returns the size as specialised.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
+    /// Returns whether a descriptor is not used as specialised: a constant has_NAME says so (default: false).
+    bool leaves_out(const ReflectedDescriptor& descriptor) const;
 
   private:
     void specialise(std::span<const SpecializationConstant> constants);

@@ -2,7 +2,7 @@
 // pin that has let go is left alone. MASKED is that of line.comp; SHEARED: there are diagonal springs. The includer
 // defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
-PUSH_CONSTANTS(NestedPush)
+CLOTH_CONSTANTS(NestedPush)
 #define TOGETHER
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -116,7 +116,7 @@ void sweep_order(NestedBox box, int order, bool second_order) {
 void main() {
     // Each cloth of the dispatch has a table of its own, of the same length.
     int first = nested_boxes.length() / int(gl_NumWorkGroups.z) * int(gl_WorkGroupID.z);
-    ivec2 pin = nested_boxes[first + push.first_pin + int(gl_WorkGroupID.x)].xy;
+    ivec2 pin = nested_boxes[first + given.first_pin + int(gl_WorkGroupID.x)].xy;
     if (LOAD(position, pin).w != 0.0f) return;
     bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
     int block = 0;

@@ -3,3 +3,15 @@
 #define PUSH_CONSTANTS(type)                            \
     layout(push_constant) uniform Push { type given; }; \
     type push = given;
+// The same for a pass over cloths together (include/together.h). Where `has_constants`, each cloth has its own, those
+// of the frame's first substep; `given` are the first cloth's, of the substep at hand.
+#define CLOTH_CONSTANTS(type)                                                              \
+    layout(push_constant) uniform Push { type given; };                                    \
+    layout(constant_id = 30) const bool has_constants = false;                             \
+    layout(set = 0, binding = 30, std430) readonly buffer Constants { type constants[]; }; \
+    type constants_of(uint cloth) {                                                        \
+        type own = given;                                                                  \
+        if (has_constants) own = constants[cloth];                                         \
+        return own;                                                                        \
+    }                                                                                      \
+    type push = constants_of(gl_WorkGroupID.z);

@@ -21,7 +21,7 @@ struct SubstepChange {
 
 struct ChangeSubstepPush {
     ivec2 grid;
-    int cloth;
+    int cloth;  // place of its change, or that of the first of cloths together
 };
 
 struct DisturbPush {

@@ -23,6 +23,7 @@ struct NestedPush {
     vec4 followed;
     vec4 followed_bdf2;
     float compression;
+    float unused_x, unused_y, unused_z;
 };
 
 #ifdef __cplusplus

@@ -67,6 +67,7 @@ struct BendPush {
     int colour;           // 0, 1, 2
     int channel;          // index into the spring shares: 0 row, 1 column
     float compliance;     // m_inner / (b h^2), dimensionless, > 0
+    int unused;
 };
 
 /// Push constants of the twist of one colour of the cells (engine/cloth/directions.h).
@@ -100,10 +101,11 @@ struct CollisionPush {
                    // depth, m, under which a contact asks for no further round; w: m that a substep resolves of an
                    // overlap that was there before
     ivec2 grid;    // columns, rows
-    int first;     // first collider of this substep
+    int first;     // first collider of this substep; the cloth's own are `list` further
     int sheet_columns;  // after contact between cloths: columns of their sheet (shared/self_contact_types.h)
     ivec2 laid;         // and where this one lies on it
-    ivec2 unused;
+    int list;
+    int unused;
 };
 
 struct PinPush {
@@ -117,6 +119,7 @@ struct ReleasePush {
     int particle_count;
     int motion_first;  // first motion of this substep
     float reach;       // the cloth's diagonal, m
+    float unused_x, unused_y, unused_z;
 };
 
 /// Vectors are over the stretch springs: along a row (x), along a column (y).

@@ -27,13 +27,66 @@ SceneDescription sheets(std::size_t count) {
     return scene;
 }
 
-TEST(TogetherTest, ClothsThatDifferInTheirStateAloneAreAlike) {
+/// Gives a cloth other numbers of every sort.
+void make_unlike(Cloth& cloth, double by) {
+    cloth.size = {cloth.size[0] * by, cloth.size[1] / by};
+    cloth.areal_density *= by;
+    cloth.stiffness.stretch /= by;
+    cloth.stiffness.shear *= by;
+    cloth.stiffness.compression /= by;
+    cloth.damping += by;
+    cloth.friction /= by;
+    cloth.thickness *= by;
+}
+
+TEST(TogetherTest, ClothsOfOneGridAndItsHolesAreAlike) {
     SceneDescription scene = sheets(6);
     EXPECT_EQ(cloths_alike(scene), (Lists{{0, 1, 2, 3, 4, 5}}));
-    scene.cloths[1].stiffness.stretch *= 2;
+    make_unlike(scene.cloths[1], 2);
     scene.cloths[3].grid = {7, 9};
-    scene.cloths[4].stiffness.stretch *= 2;
-    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 2, 5}, {1, 4}}));
+    scene.cloths[4].holes = {{{2, 2}, {4, 5}}};
+    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 1, 2, 5}}));
+    scene.cloths[2].holes = scene.cloths[4].holes;
+    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 1, 5}, {2, 4}}));
+}
+
+TEST(TogetherTest, NumbersAreTheSameWhateverTheStateHolds) {
+    const SceneDescription scene = sheets(3);
+    EXPECT_TRUE(have_same_numbers(scene.cloths[0], scene.cloths[2]));
+    Cloth other = scene.cloths[2];
+    other.damping = 1;
+    EXPECT_FALSE(have_same_numbers(scene.cloths[0], other));
+}
+
+TEST(TogetherTest, WhatTakesOtherStepsStaysApart) {
+    const auto lists = [](SolverMethod method, auto&& change) {
+        SceneDescription scene = sheets(4);
+        scene.solver.method = method;
+        for (Cloth& cloth : scene.cloths) cloth.pins = {test::pin_box(0, 0, 0, 0)};
+        change(scene.cloths[1]);
+        change(scene.cloths[3]);
+        return cloths_together(SimulationModel(scene));
+    };
+    const Lists all{{0, 1, 2, 3}}, apart{{0, 2}, {1, 3}};
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps, SolverMethod::relax}) {
+        EXPECT_EQ(lists(method, [](Cloth& cloth) { make_unlike(cloth, 1.5); }), all);
+        EXPECT_EQ(lists(method, [](Cloth& cloth) { cloth.stiffness.bend = 1e-4; }), apart);
+        EXPECT_EQ(lists(method, [](Cloth& cloth) { cloth.stiffness.shear = 0; }), apart);
+        EXPECT_EQ(lists(method, [](Cloth& cloth) { cloth.pins[0].release = 0.1; }), apart);
+    }
+    EXPECT_EQ(lists(SolverMethod::relax, [](Cloth& cloth) { cloth.stiffness.rigid = true; }), apart);
+}
+
+TEST(TogetherTest, RoundsOfNestedBoxesAreOfAsManyPins) {
+    SceneDescription scene = sheets(3);
+    const auto held_at = [](std::uint32_t column, std::uint32_t row) {
+        return test::pin_box(column, row, column, row);
+    };
+    for (Cloth& cloth : scene.cloths) cloth.grid = {65, 65};
+    scene.cloths[0].pins = {held_at(0, 0), held_at(64, 0)};
+    scene.cloths[1].pins = {held_at(0, 0), held_at(0, 64)};  // both of one column, and so of one strip
+    scene.cloths[2].pins = {held_at(0, 5), held_at(60, 0)};
+    EXPECT_EQ(cloths_together(SimulationModel(scene)), (Lists{{0, 2}}));
 }
 
 TEST(TogetherTest, CutsOwnIterationsSelfContactAndSizeKeepThemApart) {
@@ -71,7 +124,7 @@ std::size_t count_of(const std::vector<Step>& steps, bool together) {
 
 TEST(TogetherTest, EveryClothKeepsItsStepsInTheirOrder) {
     SceneDescription scene = sheets(4);
-    scene.cloths[2].damping = 1;  // not alike, in their midst
+    scene.cloths[2].holes = {{{2, 2}, {4, 5}}};  // not alike, in their midst
     for (Cloth& cloth : scene.cloths) {
         cloth.pins = {test::pin_box(0, 0, 0, 0)};
         cloth.pins[0].path.keys = {{0, {0, 0, 0}, {}}, {1, {0.1, 0, 0}, {}}};
@@ -101,7 +154,16 @@ TEST(TogetherTest, WhatSomeDoNotDoOrDoOtherwiseStaysTheirs) {
         if (step.cloth == 2 && step.kind == StepKind::line && step.substep == 1)
             std::get<glsl::LinePush>(step.constants).compliance *= 2;
     merged = steps_together(steps, lists);
-    EXPECT_EQ(count_of(merged, true), 3u * 5 - 4) << "and another is softer in one substep";
+    EXPECT_EQ(count_of(merged, true), 3u * 5) << "and another is softer in one substep";
+    for (const Step& step : merged) {
+        const bool softer = step.together && step.kind == StepKind::line && step.substep == 1;
+        EXPECT_EQ(step.own.size(), softer ? 3u : 0u);
+    }
+    for (Step& step : steps)
+        if (step.cloth == 2 && step.kind == StepKind::line && step.substep == 1)
+            std::get<glsl::LinePush>(step.constants).bend = 1;
+    merged = steps_together(steps, lists);
+    EXPECT_EQ(count_of(merged, true), 3u * 5 - 4) << "or bends there";
     for (std::size_t cloth = 0; cloth < 3; ++cloth)
         EXPECT_EQ(kinds_of(cloth, merged, lists), kinds_of(cloth, steps, {})) << cloth;
 }

@@ -187,6 +187,24 @@ TEST(VulkanComputePipeline, has_its_descriptors_sorted_and_its_push_constants) {
     EXPECT_EQ(run_scale(pipeline, {3}, 1), (std::vector<float>{1004})) << "the shader's own defaults";
 }
 
+TEST(VulkanComputePipeline, has_no_descriptor_of_a_buffer_that_a_constant_leaves_out) {
+    const auto names = [](const ComputePipeline& pipeline) {
+        std::vector<std::string> all;
+        for (const vulkan::ReflectedDescriptor& each : pipeline.descriptors()) all.push_back(each.name);
+        return all;
+    };
+    const vulkan::Device& device = gpu().device;
+    const std::vector<SpecializationConstant> used{{"has_constants", 1}}, idle{{"has_constants", 0}};
+    for (const ComputePipeline* each :
+         {&device.compute_pipeline("bend.comp"), &device.compute_pipeline("bend.comp", idle)}) {
+        EXPECT_THAT(names(*each), testing::ElementsAre("position", "displacement_in", "displacement_out"));
+        EXPECT_THAT(each->idle_bindings(), testing::SizeIs(1));
+    }
+    const ComputePipeline& with = device.compute_pipeline("bend.comp", used);
+    EXPECT_THAT(names(with), testing::Contains("constants"));
+    EXPECT_THAT(with.idle_bindings(), testing::IsEmpty());
+}
+
 TEST(VulkanComputePipeline, refuses_a_constant_that_the_shader_lacks) {
     EXPECT_THAT(compute_error(scale_shader(), {{"facter", 0}}),
                 HasSubstr("pipeline broken: no shader has the specialization constant 'facter'"));
