@@ -8,29 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "cloth/method.h"
 #include "cloth/simulation_model.h"
 
 namespace drape {
 
 /// The stated error is within this factor of the true one in three of four scenes (docs/accuracy.md).
 inline constexpr double motion_error_confidence = 3;
-
-/// The substeps of the runs beside one.
-struct Companions {
-    std::uint32_t companion;
-    std::uint32_t coarser;  ///< 0: there is none
-};
-/// Returns those beside a frame of so many substeps: about a quarter and an eighth, where there are enough. Explicit
-/// steps, which soften the cloth where they are fewer than `auto` takes, have a companion with half as many more
-/// instead.
-Companions companions_of(const Method& method, std::uint32_t substeps);
-
-/// Returns Richardson's estimate of the error of n substeps. An error that falls with n to the power p has
-/// `apart` = C (n_c^-p - n^-p) from the companion, and that `further` = C (n_cc^-p - n_c^-p) from the coarser one; the
-/// two tell p, taken between 0.7 (contact, and errors that substeps so long hardly show) and 3 (free motion has 2,
-/// solves that come to converge more). Without a coarser one p is 1.4, the mean of what scenes showed.
-double richardson_error(const Method& method, std::uint32_t substeps, double apart, double further);
 
 /// Returns whether runs are compared at the end of frame `last` of a segment: at that of a probe, and as often as
 /// probes are long, since every comparison waits for the device.

@@ -1,7 +1,8 @@
 // Tells chaos from error. Where cloth crumples, two motions that differ by nothing part, however exactly each is
 // computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it another run is begun
 // where the error first matters: the companion as it is then, disturbed by a millionth of the cloth's size. If the two
-// part as far as the estimated error says, positions have no truth there, and the error is the motion's.
+// part as far as the estimated error says, positions have no truth from there on: no error of them is stated any more,
+// and no run is needed beside the run.
 #pragma once
 
 #include <cstdint>

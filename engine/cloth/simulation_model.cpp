@@ -61,10 +61,14 @@ SimulationModel::StretchLimits SimulationModel::stretch_limits() const {
             solver.tolerance_worst > 0 ? solver.tolerance_worst : default_tolerance_worst};
 }
 
+Companions SimulationModel::companions(std::uint32_t substeps) const {
+    return companions_of(row_of(scene.solver.method), substeps);
+}
+
 std::uint32_t SimulationModel::most_substeps() const {
     const std::uint32_t own = scene.solver.substeps;
     if (closed_loop()) return substep_rungs(row_of(scene.solver.method)).back();
-    return has_companions() ? std::max(own, companions_of(row_of(scene.solver.method), own).companion) : own;
+    return has_companions() ? std::max(own, companions(own).companion) : own;
 }
 
 bool SimulationModel::ends_iterations() const {

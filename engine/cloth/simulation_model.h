@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/companions.h"
 #include "cloth/self_contact.h"
 #include "scene/overlap.h"
 
@@ -40,6 +41,7 @@ struct SimulationModel {
     bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
     /// Returns whether the position error is estimated (cloth/motion_error.h).
     bool has_companions() const { return closed_loop() || scene.solver.estimate_error; }
+    Companions companions(std::uint32_t substeps) const;
     /// A closed loop keeps these largest stretch errors: the scene's, or the defaults.
     struct StretchLimits {
         double rms, worst;

@@ -90,9 +90,10 @@ void TwinLoop::follow(Beside& beside, std::uint32_t substeps) {
 }
 
 void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
+    if (sensitivity_.is_sensitive()) return note_motion(position_error_, sensitivity_, effort);
     const Segment& segment = control_.segment();
     const std::uint32_t last = next_ + segment.frame_count - 1;
-    const Companions with = companions_of(row_of(model_.scene.solver.method), segment.substeps);
+    const Companions with = model_.companions(segment.substeps);
     follow(companion_, with.companion);
     if (with.coarser > 0) follow(coarser_, with.coarser);
     if (sensitivity_.runs()) follow(disturbed_, with.companion);

@@ -55,7 +55,7 @@ void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t count, s
 
 Companions FrameLoop::follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
                                              const Finished& finished) {
-    const Companions with = companions_of(row_of(model_.scene.solver.method), substeps);
+    const Companions with = model_.companions(substeps);
     follow(StateSet::companion, frame, count, with.companion, finished);
     if (with.coarser > 0) follow(StateSet::coarser, frame, count, with.coarser, finished);
     return with;
@@ -73,6 +73,7 @@ std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finish
 }
 
 void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
+    if (sensitivity_.is_sensitive()) return;  // there is no error that could be told
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
     const Companions with = follow_with_companions(frame, segment.frame_count, segment.substeps, finished);

@@ -39,16 +39,16 @@ TEST(MotionErrorTest, RichardsonsEstimateIsExactForAnErrorOfOneOrder) {
             const Companions with = companions_of(line(), substeps);
             const double apart = error(with.companion) - error(substeps),
                          further = error(with.coarser) - error(with.companion);
-            EXPECT_NEAR(richardson_error(line(), substeps, apart, further), error(substeps), 1e-6 * error(substeps))
+            EXPECT_NEAR(richardson_error(with, substeps, apart, further), error(substeps), 1e-6 * error(substeps))
                 << order << ", " << substeps;
         }
-    EXPECT_EQ(richardson_error(line(), 8, 0, 0), 0);
+    EXPECT_EQ(richardson_error(companions_of(line(), 8), 8, 0, 0), 0);
 }
 
 TEST(MotionErrorTest, WithoutACoarserRunTheOrderIsTheUsualOne) {
     const auto error = [](double n) { return std::pow(n, -1.4); };
-    const double more = companions_of(explicit_steps(), 40).companion;
-    EXPECT_NEAR(richardson_error(explicit_steps(), 40, error(40) - error(more), 0), error(40), 1e-9);
+    const Companions more = companions_of(explicit_steps(), 40);
+    EXPECT_NEAR(richardson_error(more, 40, error(40) - error(more.companion), 0), error(40), 1e-9);
 }
 
 /// Two cloths, the second twice the size: its error may be twice as large.
@@ -66,11 +66,9 @@ TEST(MotionErrorTest, TheWorstClothCountsAndAnErrorHoldsOn) {
     const SimulationModel model(two_cloths());
     MotionError error(model);
     EXPECT_TRUE(std::isnan(error.error()));
-    const Companions with = companions_of(row_of(model.scene.solver.method), 16);
+    const Companions with = model.companions(16);
     const std::vector<double> further(with.coarser > 0 ? 2 : 0, 0.02);
-    const auto estimate = [&](double apart) {
-        return richardson_error(row_of(model.scene.solver.method), 16, apart, further.empty() ? 0 : 0.02);
-    };
+    const auto estimate = [&](double apart) { return richardson_error(with, 16, apart, further.empty() ? 0 : 0.02); };
     error.saw(25, 16, std::vector{0.01, 0.03}, further);
     EXPECT_DOUBLE_EQ(error.error(), estimate(0.03));
     EXPECT_DOUBLE_EQ(error.share(),
@@ -93,7 +91,7 @@ TEST(MotionErrorTest, TheWorstClothCountsAndAnErrorHoldsOn) {
 /// An error that is `share` of what is allowed at that frame.
 MotionError error_of(const SimulationModel& model, std::uint32_t frame, double share) {
     MotionError unit(model);
-    const Companions with = companions_of(row_of(model.scene.solver.method), 16);
+    const Companions with = model.companions(16);
     const auto saw = [&](MotionError& error, double apart) {
         error.saw(frame, 16, std::vector{apart, 0.0}, std::vector<double>(with.coarser > 0 ? 2 : 0, apart));
     };

@@ -177,20 +177,19 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_EQ(verdict, Verdict::give_up);
 }
 
-TEST(SubstepControl, AnErrorNearItsLimitMakesProbesStricter) {
-    SubstepControl loop = control(16);
-    const Judgement passes{.stretch = 0.1, .motion = 0.6, .coarse_stretch = 0.3};
-    loop.begin(6, false);
-    EXPECT_EQ(loop.judge(passes), Verdict::keep);
-    loop.accumulated(1.4);  // twice what is comfortable
-    while (!loop.begin(6, false).probes) loop.judge(passes);
-    EXPECT_EQ(loop.judge(passes), Verdict::again);
-    SubstepControl sensitive = control(16);
-    sensitive.begin(6, false);
-    EXPECT_EQ(sensitive.judge(passes), Verdict::keep);
-    sensitive.accumulated(0);
-    while (!sensitive.begin(6, false).probes) sensitive.judge(passes);
-    EXPECT_EQ(sensitive.judge(passes), Verdict::keep);
+TEST(SubstepControl, AnErrorFarFromItsLimitMakesProbesFewer) {
+    const auto probes = [](double share) {
+        SubstepControl loop = control(16);
+        std::uint32_t count = 0;
+        for (int segment = 0; segment < 60; ++segment) {
+            count += loop.begin(6, false).probes;
+            EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.9, .coarse_stretch = 0.3}), Verdict::keep);
+            loop.accumulated(share);
+        }
+        return count;
+    };
+    EXPECT_EQ(probes(1.4), probes(0.6));
+    EXPECT_LT(probes(0.1), probes(0.6));
 }
 
 TEST(SubstepControl, WithoutProbesSubstepsFollowTheErrorAndComeBack) {
