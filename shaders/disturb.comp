@@ -13,7 +13,7 @@ PUSH_CONSTANTS(DisturbPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D disturbed_position;
 
-vec3 at(ivec2 texel) { return LOAD(position, clamp(texel, ivec2(0), push.grid - 1)).xyz; }
+vec3 at(ivec2 texel) { return LOAD(position, min(max(texel, ivec2(0)), push.grid - 1)).xyz; }
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

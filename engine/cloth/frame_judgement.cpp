@@ -43,7 +43,7 @@ double motion_error(const SimulationModel& model, double difference, std::uint32
 double motion_limit(const SimulationModel& model, std::size_t cloth) {
     const SolverSettings& solver = model.scene.solver;
     const std::array<double, 2>& size = model.scene.cloths[cloth].size;
-    return solver.tolerance_motion > 0 ? solver.tolerance_motion : default_motion_share * std::max(size[0], size[1]);
+    return solver.tolerance_motion > 0 ? solver.tolerance_motion : default_motion_limit(std::max(size[0], size[1]));
 }
 
 double stretch_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {

@@ -38,13 +38,17 @@ class MotionError {
     /// Writes or reads what it knows. Returns whether what was read can be.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(held_, last_frame_, error_, share_);
+        archive(held_, ratios_.companion, ratios_.coarser, weight_, last_frame_, error_, share_);
         return held_.size() == model_.cloths.size();
     }
 
   private:
+    void weigh(std::uint32_t substeps, double passed, double kept);
+
     const SimulationModel& model_;
-    std::vector<double> held_;  ///< by cloth, m: errors that hold on, since runs of a swing meet now and then
+    std::vector<double> held_;  ///< by cloth, m: errors hold on, since runs of a swing meet now and then
+    StepRatios ratios_;         ///< with which errors were made
+    double weight_ = 0;         ///< of what was made so far
     std::uint32_t last_frame_ = 0;
     double error_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "cloth/sensitivity.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace drape {
 
@@ -24,8 +25,8 @@ float disturbance(const ClothModel& cloth) {
     return 1e-6f * static_cast<float>(side);
 }
 
-bool Sensitivity::begins(std::uint32_t frame, const MotionError& error) const {
-    if (runs_ || sensitive_ || !(error.share() > matters)) return false;
+bool Sensitivity::begins(std::uint32_t frame, const MotionError& error, bool predictable) const {
+    if (runs_ || sensitive_ || (predictable && !(error.share() > matters))) return false;
     return ended_ == 0 || frame - ended_ > pause * model_.scene.time.fps;
 }
 
@@ -37,9 +38,11 @@ void Sensitivity::begin(std::uint32_t frame) {
 
 void Sensitivity::saw(std::uint32_t frame, std::span<const double> distances, const MotionError& error) {
     parted_ = *std::ranges::max_element(distances);
-    sensitive_ = parted_ >= as_far * error.error();
+    const double scale = error.share() > 0 ? error.error() * std::max(1.0, matters / error.share())
+                                           : std::numeric_limits<double>::infinity();
+    sensitive_ = parted_ >= as_far * scale;
     const double lasted = (frame - begun_) / model_.scene.time.fps;
-    const bool is_vain = lasted > most_patience || (lasted > patience && parted_ < on_the_way * error.error());
+    const bool is_vain = lasted > most_patience || (lasted > patience && parted_ < on_the_way * scale);
     runs_ = !sensitive_ && !is_vain;
     if (!runs_) ended_ = frame;
 }

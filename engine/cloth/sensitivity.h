@@ -1,6 +1,7 @@
 // Tells chaos from error. Where cloth crumples, two motions that differ by nothing part, however exactly each is
 // computed, and no number of substeps brings the companion (cloth/motion_error.h) back. To know it another run is begun
-// where the error first matters: the companion as it is then, disturbed by a millionth of the cloth's size. If the two
+// where the error first matters, or substeps do not reduce it: the companion as it is then, disturbed by a millionth of
+// the cloth's size. If the two
 // part as far as the estimated error says, positions have no truth from there on: no error of them is stated any more,
 // and no run is needed beside the run.
 #pragma once
@@ -20,13 +21,15 @@ class Sensitivity {
   public:
     explicit Sensitivity(const SimulationModel& model) : model_(model) {}
 
-    /// Returns whether the disturbed run is to begin at the end of this frame.
-    bool begins(std::uint32_t frame, const MotionError& error) const;
+    /// Returns whether the disturbed run is to begin at the end of this frame. A frame is not `predictable` where more
+    /// substeps do not reduce a probe's error, whatever the companions say: where cloth buckles two runs may happen to
+    /// go one way.
+    bool begins(std::uint32_t frame, const MotionError& error, bool predictable) const;
     void begin(std::uint32_t frame);
     bool runs() const { return runs_; }
     /// Takes each cloth's distance (m) from the disturbed run at the end of a frame.
     void saw(std::uint32_t frame, std::span<const double> distances, const MotionError& error);
-    /// Returns whether equally exact runs were found to part as far as the estimated error.
+    /// Returns whether equally exact runs were found to part as far as the estimated error, or as what is allowed.
     bool is_sensitive() const { return sensitive_; }
     /// Returns how far apart they were when they were last compared, m.
     double parted() const { return parted_; }

@@ -2,6 +2,8 @@
 // of each method's stretch error and what its passes cost.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,10 @@ namespace drape {
 inline constexpr double default_tolerance = 0.01;
 /// A single spring may have this stretch error.
 inline constexpr double default_tolerance_worst = 0.1;
-/// The motion may err by this per second, over the cloth's longer side.
-inline constexpr double default_motion_share = 0.02;
+/// Returns the error that the motion may have where the scene states none, m/s: 0.02 of the longer side (m) a second.
+/// Cloth of less than a metre has 0.02 of what a metre has, times the root of its side over a metre: that is how speeds
+/// under gravity fall with size (Froude), so a model of a scene takes the substeps of the scene in the same motion.
+inline double default_motion_limit(double side) { return 0.02 * std::max(side, std::sqrt(side)); }
 
 /// One method with the fewest substeps that its law allows.
 struct SolverCandidate {

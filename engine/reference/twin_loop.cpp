@@ -102,7 +102,7 @@ void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
         with.coarser > 0 ? differences(companion_.twin, coarser_.twin) : std::vector<double>();
     position_error_.saw(last, segment.substeps, differences(end, companion_.twin), further);
     if (sensitivity_.runs()) sensitivity_.saw(last, differences(companion_.twin, disturbed_.twin), position_error_);
-    if (sensitivity_.begins(last, position_error_)) {
+    if (sensitivity_.begins(last, position_error_, effort.predictable)) {
         sensitivity_.begin(last);
         disturbed_ = companion_;
         disturbed_.twin.disturb();

@@ -356,7 +356,9 @@ const Object<SolverSettings> solver{
          "Method auto: largest stretch error of a single spring in a frame. 0: 0.1."},
         {"tolerance_motion", &SolverSettings::tolerance_motion, number(not_negative),
          "Method auto: largest error of the motion, RMS over the cloth in metres per second of simulated time, as "
-         "estimated by running some frames with half the substeps too. 0: 0.02 of the cloth's longer side a second."},
+         "estimated by running some frames with half the substeps too. 0: 0.02 of the cloth's longer side a second, "
+         "and for cloth of less than a metre 0.02 m/s times the root of its "
+         "side in metres."},
         {"estimate_error", &SolverSettings::estimate_error, boolean(),
          "Whether the position error of a method that is named is estimated, by companion runs with a quarter and an "
          "eighth of the substeps (explicit: half as many more): position_error_m in the manifest. Method auto always "

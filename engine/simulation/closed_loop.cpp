@@ -225,7 +225,7 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
         note_self_contact(frame + static_cast<std::uint32_t>(k), attempt_self_records_[k]);
     state_substeps_ = segment.substeps;
     simulated_ = frame + segment.frame_count;
-    follow_segment(frame, segment.probes ? withhold_ : asked.finished);
+    follow_segment(frame, single.effort.predictable, segment.probes ? withhold_ : asked.finished);
     note_motion(position_error_, sensitivity_, single.effort);
     // Frames behind the last that is asked for are withheld, for they may be wanted then.
     for (std::uint32_t k = 0; k < segment.frame_count && frame + k <= asked.last; ++k)

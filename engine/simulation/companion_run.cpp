@@ -72,7 +72,7 @@ std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finish
     return solver_.differences(*pool_, slot);
 }
 
-void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
+void FrameLoop::follow_segment(std::uint32_t frame, bool predictable, const Finished& finished) {
     if (sensitivity_.is_sensitive()) return;  // there is no error that could be told
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
@@ -83,7 +83,7 @@ void FrameLoop::follow_segment(std::uint32_t frame, const Finished& finished) {
     position_error_.saw(last, segment.substeps, compared(AttemptStep::compare_companion, finished), further);
     if (sensitivity_.runs())
         sensitivity_.saw(last, compared(AttemptStep::compare_disturbed, finished), position_error_);
-    if (sensitivity_.begins(last, position_error_)) {
+    if (sensitivity_.begins(last, position_error_, predictable)) {
         sensitivity_.begin(last);
         const std::uint32_t slot = take_slot(finished);
         slots_.submit(slot, {commands(AttemptStep::disturb, slot)});

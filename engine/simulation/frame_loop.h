@@ -235,7 +235,7 @@ class FrameLoop {
     // These are in companion_run.cpp.
     Frame build_beside(const SimulationModel& run, StateSet set);
     /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
-    void follow_segment(std::uint32_t frame, const Finished& finished);
+    void follow_segment(std::uint32_t frame, bool predictable, const Finished& finished);
     /// Simulates the companions of frames from `frame` on.
     Companions follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
                                       const Finished& finished);

@@ -38,6 +38,7 @@ class FrameWatch {
 
     void see(const FinishedFrame& frame) {
         ++count_;
+        see_motion(frame);
         for (std::size_t cloth = 0; cloth < frame.statistics.size(); ++cloth) {
             const ClothStatistics& statistics = frame.statistics[cloth];
             const std::string& name = model_.cloths[cloth].name;
@@ -56,11 +57,26 @@ class FrameWatch {
     }
     std::uint32_t count() const { return count_; }
 
+    /// The last position error that a frame states, and what is allowed there, m; or the first frame from which on
+    /// there is none, with how far equally exact runs had parted.
+    struct Motion {
+        std::uint32_t frame = 0;
+        double error = 0, allowed = 0, parted = 0;
+        bool sensitive = false;
+    };
     Worst stretch, error, penetration;
+    std::optional<Motion> motion;
     std::string nonsense, missed;  ///< the first frame that is not plausible, or misses its tolerance; empty: none
     bool finite = true;
 
   private:
+    void see_motion(const FinishedFrame& frame) {
+        const FrameEffort& effort = frame.effort;
+        if (motion && motion->sensitive) return;
+        if (effort.sensitive || std::isfinite(effort.position_error))
+            motion = {frame.frame, effort.position_error, effort.position_allowed, effort.parted, effort.sensitive};
+    }
+
     const SimulationModel& model_;
     Watch watch_;
     std::uint32_t count_ = 0;
@@ -72,6 +88,18 @@ Finding limit(const char* name, const char* what, const Worst& worst, double all
     return {name, worst.value <= allowed,
             fmt::format("{} at most {:.3g}{} ({}), allowed {:.3g}{}", what, worst.value, unit, worst.place(), allowed,
                         unit)};
+}
+
+/// What method `auto`, or `estimate_error`, says of the positions, where there are any that could be right.
+Finding motion_finding(const FrameWatch::Motion& motion) {
+    if (motion.sensitive)
+        return {"motion", true,
+                fmt::format("sensitive from frame {} on, where equally exact runs had parted by {:.2g} m: stretch, "
+                            "contact and means are judged, positions are not",
+                            motion.frame, motion.parted)};
+    return {"motion", motion.error <= motion.allowed,
+            fmt::format("positions about {:.2g} m from the exact motion at frame {}, allowed {:.2g} m", motion.error,
+                        motion.frame, motion.allowed)};
 }
 
 /// Every run must keep these.
@@ -86,6 +114,7 @@ std::vector<Finding> common_findings(const Request& request, const SimulationMod
     else if (model.asked_tolerance > 0 || model.closed_loop())
         findings.push_back(limit("tolerance", "stretch error", frames.error,
                                  model.closed_loop() ? tolerance : model.asked_tolerance, ""));
+    if (frames.motion) findings.push_back(motion_finding(*frames.motion));
     if (request.stretch) findings.push_back(limit("limit/stretch", "RMS strain", frames.stretch, *request.stretch, ""));
     if (request.stretch_error)
         findings.push_back(limit("limit/stretch_error", "RMS stretch error", frames.error, *request.stretch_error, ""));

@@ -7,11 +7,12 @@
 
 /// Returns a number in [-1, 1), another for every seed (the PCG hash of Jarzynski and Olano, "Hash Functions for GPU
 /// Rendering", 2020).
-SHARED float scattered(uint seed) {
+SHARED float scattered_by(uint seed) {
     uint state = seed * 747796405u + 2891336453u;
     uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     word = (word >> 22u) ^ word;
-    return float(word >> 8u) * (1.0f / 8388608.0f) - 1.0f;
+    precise float scattered = float(word >> 8u) * (1.0f / 8388608.0f) - 1.0f;
+    return scattered;
 }
 
 /// Returns where particle `index` is after it; one that is held, with `weight` 0, stays. It goes across the cloth, whose
@@ -21,7 +22,7 @@ SHARED vec3 disturbed(vec3 position, float weight, vec3 along, vec3 down, uint i
     precise vec3 across = ordered_cross(along, down);
     precise float size = abs(across.x) + abs(across.y) + abs(across.z);
     if (!(weight > 0.0f) || !(size > 0.0f)) return position;
-    precise float way = amplitude * scattered(index) / size;
+    precise float way = amplitude * scattered_by(index) / size;
     precise vec3 there = position + way * across;
     return there;
 }

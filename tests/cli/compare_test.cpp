@@ -117,6 +117,26 @@ TEST_F(Compare, FoldersFileByFile) {
     EXPECT_EQ(over, 1u);
 }
 
+TEST_F(Compare, PositionsOfSensitiveFramesByTheirMeans) {
+    // Two frames of two values each; in the second the runs differ by 1 and -0.5, so their means by 0.25.
+    write_array(*this / "a/positions.npy", {1, 2, 3, 4});
+    write_array(*this / "b/positions.npy", {1, 2.1f, 4, 3.5f});
+    EXPECT_EQ(run("a", "b", {"--max", "0.2"}).code, 7);
+    const auto manifest = [](const char* second) {
+        return fmt::format(R"({{"statistics": [{{"frame": 0}}, {{"frame": 1{}}}]}})", second);
+    };
+    write_text(*this / "a/manifest.json", manifest(""));
+    write_text(*this / "b/manifest.json", manifest(R"(, "sensitive": 1)"));
+    const Outcome outcome = run("a/positions.npy", "b/positions.npy", {"--max", "0.2"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("largest difference 0.1 at (0, 1)"), HasSubstr("of the first 1 frames"),
+                                   HasSubstr("means are at most 0.25 apart there")));
+    EXPECT_EQ(run("a", "b", {"--max", "0.05"}).code, 7) << "frames before are judged";
+    EXPECT_EQ(run("a", "b").code, 7) << "without a limit bytes are promised, and compared";
+    write_text(*this / "b/manifest.json", "no JSON");
+    EXPECT_EQ(run("a", "b", {"--max", "0.2"}).code, 7);
+}
+
 TEST_F(Compare, ReadsWhatNumPyWrites) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
     write_text(*this / "make.py", R"(

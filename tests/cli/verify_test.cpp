@@ -83,6 +83,20 @@ TEST(Verify, AMissedPromiseIsExitCode7InEveryFormat) {
     }
 }
 
+TEST(Verify, JudgesTheMotionWhereItsErrorIsEstimated) {
+    const SceneFolder folder(scene_with(""));
+    EXPECT_THAT(verify(folder, {}).out, testing::Not(HasSubstr("motion")));
+    const std::vector<std::string> estimate{"--set", "/solver/estimate_error=true"};
+    const Outcome met = verify(folder, estimate);
+    EXPECT_EQ(met.code, 0) << met.out << met.err;
+    EXPECT_THAT(met.out, AllOf(HasSubstr("  met     motion: positions about "), HasSubstr(" at frame 30, allowed ")));
+    std::vector<std::string> strict = estimate;
+    strict.insert(strict.end(), {"--set", "/solver/tolerance_motion=1e-7"});
+    const Outcome missed = verify(folder, strict);
+    EXPECT_EQ(missed.code, 7);
+    EXPECT_THAT(missed.out, HasSubstr("  MISSED  motion: positions about "));
+}
+
 TEST(Verify, WhatDivergesIsMissedAndItsOraclesWithIt) {
     const SceneFolder folder(scene_with(promises));
     const Outcome outcome =

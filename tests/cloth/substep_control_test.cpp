@@ -181,7 +181,7 @@ TEST(SubstepControl, AnErrorFarFromItsLimitMakesProbesFewer) {
     const auto probes = [](double share) {
         SubstepControl loop = control(16);
         std::uint32_t count = 0;
-        for (int segment = 0; segment < 60; ++segment) {
+        for (int segment = 0; segment < 100; ++segment) {
             count += loop.begin(6, false).probes;
             EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.9, .coarse_stretch = 0.3}), Verdict::keep);
             loop.accumulated(share);

@@ -78,7 +78,7 @@ struct Limits {
     explicit Limits(const SceneDescription& scene)
         : stretch(or_default(scene.solver.tolerance, default_tolerance)),
           spring(or_default(scene.solver.tolerance_worst, default_tolerance_worst)),
-          motion(or_default(scene.solver.tolerance_motion, default_motion_share * largest_side(scene))) {}
+          motion(or_default(scene.solver.tolerance_motion, default_motion_limit(largest_side(scene)))) {}
 
     bool keeps(const TrialFrame& frame) const { return frame.stretch_error <= stretch && frame.worst_spring <= spring; }
 

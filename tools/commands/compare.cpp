@@ -62,7 +62,8 @@ void add_compare(Program& program) {
     CLI::App& command = program.add("compare", "Two runs' arrays, pictures or folders, or two profiles", R"text(
 Arrays (.npy, .npz): largest and RMS difference. Pictures (.png): PSNR and largest difference. Folders: file by file,
 other files by their bytes, the manifests left out. What is given no limit must be equal. Exit code 7 when anything is
-over its limit, or only one of them has it.
+over its limit, or only one of them has it. Where the manifest beside arrays calls frames `sensitive` (equally exact
+runs part there), --max and --rms judge the frames before, and of the others only means are told.
 
 Profiles (`drape profile --json`): medians of what both have, their ratio, and the noise: the larger interquartile
 range over its median, at least 2 %. Exit code 7 when anything is slower by more than that.

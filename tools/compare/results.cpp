@@ -12,6 +12,7 @@
 #include "base/printable_text.h"
 #include "compare/array_file.h"
 #include "output/atomic_file.h"
+#include "output/json_file.h"
 #include "output/json_text.h"
 #include "output/png.h"
 
@@ -48,7 +49,54 @@ class Differences {
 
 bool above(const std::optional<double>& limit, double value) { return limit && !(value <= *limit); }
 
-Row compare_arrays(const std::string& name, const Array& a, const Array& b, const Limits& limits) {
+/// What the manifest beside arrays says of their frames.
+struct Frames {
+    std::size_t count = 0;  ///< 0: there is no manifest
+    std::size_t exact = 0;  ///< those before positions are sensitive: equally exact runs part from there on
+    /// Returns whether the array has a row for each of them.
+    bool are_of(const Array& array) const { return count > 0 && !array.shape.empty() && array.shape[0] == count; }
+};
+
+Frames frames_of(const fs::path& file) {
+    const fs::path manifest = file.parent_path() / manifest_file_name;
+    std::error_code ignored;
+    const auto json = fs::exists(manifest, ignored) ? parse_json(read_file(manifest)) : std::nullopt;
+    if (!json || !json->isObject() || !(*json)["statistics"].isArray()) return {};
+    const Json::Value& list = (*json)["statistics"];
+    const auto first = std::find_if(list.begin(), list.end(), [](const Json::Value& frame) {
+        return frame.isObject() && frame.isMember("sensitive");
+    });
+    return {list.size(), static_cast<std::size_t>(std::distance(list.begin(), first))};
+}
+
+/// Returns those that both have.
+Frames frames_of(const fs::path& a, const fs::path& b) {
+    const Frames before = frames_of(a), after = frames_of(b);
+    if (before.count != after.count) return {};
+    return {before.count, std::min(before.exact, after.exact)};
+}
+
+/// Returns how far apart means are, over all but an array's first axis and one of components, from a frame on.
+double furthest_mean(const Array& a, const Array& b, std::size_t from) {
+    const std::size_t components = a.shape.size() > 2 && a.shape.back() <= 4 ? a.shape.back() : 1;
+    const std::size_t of_a_frame = a.count() / a.shape[0], rows = of_a_frame / components;
+    double furthest = 0;
+    for (std::size_t frame = from; frame < a.shape[0]; ++frame)
+        for (std::size_t component = 0; component < components; ++component) {
+            double sum = 0;
+            for (std::size_t row = 0; row < rows; ++row) {
+                const std::size_t index = frame * of_a_frame + row * components + component;
+                sum += a.value(index) - b.value(index);
+            }
+            const double mean = sum / static_cast<double>(rows);
+            // A NaN is no result, and is far from all.
+            furthest = std::isnan(mean) ? std::numeric_limits<double>::infinity() : std::max(furthest, std::abs(mean));
+        }
+    return furthest;
+}
+
+Row compare_arrays(const std::string& name, const Array& a, const Array& b, const Limits& limits,
+                   const Frames& frames) {
     Row row{name, {}, false, {}, {}, {}};
     if (a.shape != b.shape || a.has_numbers() != b.has_numbers() || (!a.has_numbers() && a.type != b.type)) {
         row.text = fmt::format("{} and {}", a.text(), b.text());
@@ -60,17 +108,25 @@ Row compare_arrays(const std::string& name, const Array& a, const Array& b, cons
         row.text = fmt::format("{}: {}", a.text(), row.over ? "another text" : "equal");
         return row;
     }
+    const bool judged = limits.largest || limits.rms;
+    const bool sensitive = judged && frames.are_of(a) && frames.exact < frames.count;
     Differences differences;
-    for (std::size_t i = 0; i < a.count(); ++i) differences.see(a.value(i), b.value(i), i);
+    const std::size_t compared = sensitive ? a.count() / frames.count * frames.exact : a.count();
+    for (std::size_t i = 0; i < compared; ++i) differences.see(a.value(i), b.value(i), i);
     row.largest = differences.largest();
     row.rms = differences.rms();
-    row.over = limits.largest || limits.rms ? above(limits.largest, *row.largest) || above(limits.rms, *row.rms)
-                                            : differences.differing() > 0;
+    row.over =
+        judged ? above(limits.largest, *row.largest) || above(limits.rms, *row.rms) : differences.differing() > 0;
     row.text = a.text() + (a.type == b.type ? "" : " and " + b.text()) + ": ";
     row.text += differences.differing() == 0
                     ? "equal"
                     : fmt::format("largest difference {:.3g} at {}, RMS {:.3g}, {} of {} values differ", *row.largest,
                                   a.place(differences.where()), *row.rms, differences.differing(), differences.count());
+    if (sensitive)
+        row.text += fmt::format(
+            " (of the first {} frames: from there on the motion is sensitive, and no position is "
+            "right; means are at most {:.3g} apart there)",
+            frames.exact, furthest_mean(a, b, frames.exact));
     return row;
 }
 
@@ -108,11 +164,12 @@ Row only_in(const std::string& name, const fs::path& where) {
 std::vector<Row> compare_array_files(const fs::path& a, const fs::path& b, const Limits& limits) {
     const std::vector<Array> before = load_arrays(a), after = load_arrays(b);
     const std::string file = a.filename().string();
+    const Frames frames = frames_of(a, b);
     std::vector<Row> rows;
     for (const Array& array : before) {
         const std::string name = array.name.empty() ? file : file + "/" + array.name;
         const auto other = std::ranges::find(after, array.name, &Array::name);
-        rows.push_back(other == after.end() ? only_in(name, a) : compare_arrays(name, array, *other, limits));
+        rows.push_back(other == after.end() ? only_in(name, a) : compare_arrays(name, array, *other, limits, frames));
     }
     for (const Array& array : after)
         if (std::ranges::find(before, array.name, &Array::name) == before.end())

@@ -226,7 +226,8 @@ constexpr Line lines[] = {{"Stretch", "%", 100, "largest", "stretch_max"},
                           {"Substeps and iterations", "per frame", 1, "substeps", "substeps"},
                           {"Substeps and iterations", "per frame", 1, "iterations", "iterations"},
                           {"Largest speed", "m/s", 1, "speed", "speed_max_m_s"},
-                          {"Motion error, estimated", "mm/s", 1000, "error", "motion_error_m_s"}};
+                          {"Motion error, estimated", "mm/s", 1000, "error", "motion_error_m_s"},
+                          {"Position error, estimated", "mm", 1000, "error", "position_error_m"}};
 
 /// In every frame the largest value of any cloth; no points where no cloth has the key.
 plot::Curve curve(const RunFolder& run, const std::string& name, const Line& line, std::size_t look, bool dashed) {
