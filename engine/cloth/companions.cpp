@@ -7,6 +7,8 @@ namespace drape {
 
 namespace {
 
+/// Runs of fewer substeps are so far from all others in contact that their distances tell nothing of those.
+constexpr std::uint32_t least_companion = 4;
 constexpr double least_order = 0.7, most_order = 3;
 /// Companions whose steps are nearer to each other's length than that tell no order.
 constexpr double least_apart = 1.8;
@@ -17,7 +19,7 @@ Companions companions_of(const Method& method, std::uint32_t substeps) {
     const std::uint32_t more = (3 * substeps + 1) / 2;
     if (method.trust == Method::Trust::resolves) return {more <= method.most_substeps ? more : 2 * substeps / 3, 0};
     if (substeps == 1) return {more, 0};
-    const std::uint32_t companion = std::max(substeps / 4, std::min(2u, substeps / 2));
+    const std::uint32_t companion = std::max(substeps / 4, std::min(least_companion, substeps / 2));
     return {companion, std::max(companion / 2, 1u)};
 }
 

@@ -13,7 +13,8 @@ struct Companions {
     std::uint32_t companion;
     std::uint32_t coarser;  ///< 0: there is none, in any frame
 };
-/// Returns those beside a frame of so many substeps: about a quarter and an eighth, or what comes near that. Explicit
+/// Returns those beside a frame of so many substeps: a quarter and an eighth, or a half and a quarter where that were
+/// fewer than four and two. Explicit
 /// steps, which soften the cloth where they are fewer than `auto` takes, have one companion with half as many more
 /// instead (or a third less, where that is too many).
 Companions companions_of(const Method& method, std::uint32_t substeps);

@@ -49,4 +49,10 @@ void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<con
     }
 }
 
+double MotionError::at_end() const {
+    const TimeSettings& time = model_.scene.time;
+    const double now = std::max(last_frame_ / time.fps, least_time), end = (time.frame_count - 1) / time.fps;
+    return error_ * std::max(1.0, end / now);
+}
+
 }  // namespace drape

@@ -35,6 +35,9 @@ class MotionError {
     /// error is about as large as it will be then.
     double allowed() const { return share_ > 0 ? error_ / share_ : std::numeric_limits<double>::quiet_NaN(); }
 
+    /// Returns what it will be in the scene's last frame if it goes on growing in proportion to time, m.
+    double at_end() const;
+
     /// Writes or reads what it knows. Returns whether what was read can be.
     template <class Archive>
     bool transfer(Archive& archive) {

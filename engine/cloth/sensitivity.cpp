@@ -48,10 +48,12 @@ void Sensitivity::saw(std::uint32_t frame, std::span<const double> distances, co
 }
 
 void note_motion(const MotionError& error, const Sensitivity& sensitivity, FrameEffort& effort) {
-    effort.sensitive = sensitivity.is_sensitive();
-    if (!effort.sensitive) effort.position_error = error.error();
-    if (!effort.sensitive) effort.position_allowed = error.allowed();
     if (sensitivity.parted() > 0) effort.parted = sensitivity.parted();
+    effort.sensitive = sensitivity.is_sensitive();
+    if (effort.sensitive) return;
+    effort.position_error = error.error();
+    effort.position_error_at_end = error.at_end();
+    effort.position_allowed = error.allowed();
 }
 
 }  // namespace drape

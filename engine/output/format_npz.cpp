@@ -26,8 +26,9 @@ FrameValues numbers_of(const FrameValues& values, const std::string& label) {
     FrameValues numbers;
     for (const auto& [name, value] : values) {
         if (name.starts_with(own)) numbers[name.substr(own.size())] = value;
-        for (const std::string_view effort : {"substeps", "attempts", "motion_error_m_s", "position_error_m",
-                                              "position_allowed_m", "parted_m", "sensitive", "asleep"})
+        for (const std::string_view effort :
+             {"substeps", "attempts", "motion_error_m_s", "position_error_m", "position_error_at_end_m",
+              "position_allowed_m", "parted_m", "sensitive", "asleep"})
             if (name == effort) numbers[name] = value;
     }
     return numbers;

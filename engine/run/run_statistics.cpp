@@ -64,6 +64,7 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         values["motion_error_m_s"] = frame.effort.motion_error;
     }
     values["position_error_m"] = frame.effort.position_error;
+    values["position_error_at_end_m"] = frame.effort.position_error_at_end;
     values["position_allowed_m"] = frame.effort.position_allowed;
     values["parted_m"] = frame.effort.parted;
     if (frame.effort.sensitive) values["sensitive"] = 1;
@@ -143,8 +144,11 @@ std::string RunStatistics::note(const FrameValues& values) const {
         parts.push_back(fmt::format("stretch error {:.3g} % RMS", 100 * *error));
     if (const auto error = values.find("motion_error_m_s"); error != values.end())
         parts.push_back(fmt::format("motion error {:.3g} mm/s", 1000 * error->second));
-    if (const auto error = values.find("position_error_m"); error != values.end())
-        parts.push_back(fmt::format("position error {:.2g} mm", 1000 * error->second));
+    if (const auto error = values.find("position_error_m"); error != values.end()) {
+        const double end = value_of(values, "position_error_at_end_m");
+        parts.push_back(fmt::format("position error {:.2g} mm", 1000 * error->second) +
+                        (end > error->second ? fmt::format(" ({:.2g} by the end)", 1000 * end) : ""));
+    }
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (values.contains("asleep")) parts.push_back("asleep");

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "cloth/impossible_pins.h"
+#include "cloth/impossible_scene.h"
 #include "cloth/passage_watch.h"
 #include "cloth/substep_change.h"
 #include "simulation/frame_loop.h"
@@ -242,7 +242,7 @@ void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const A
     if (!options_.keep_promises || !std::isfinite(judgement.stretch) || !judgement.plausible) return;
     if (!control_->segment().probes) deliver_all(asked.finished);
     const bool stretch = judgement.stretch > 1;
-    const std::string impossible = impossible_pins(model_, frame + control_->segment().frame_count - 1);
+    const std::string impossible = impossible_scene(model_, frame + control_->segment().frame_count - 1);
     const char* criterion = stretch ? "stretch error" : "estimated error of the motion";
     const double times = stretch ? judgement.stretch : judgement.motion;
     const std::string text = fmt::format(

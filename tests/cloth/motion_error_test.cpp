@@ -58,7 +58,7 @@ SceneDescription two_cloths() {
     scene.cloths.push_back(scene.cloths[0]);
     scene.cloths[1].name = "other";
     scene.cloths[1].size = {2, 1};
-    scene.time.fps = 50;
+    scene.time = {.fps = 50, .frame_count = 101};
     scene.solver = {};
     return scene;
 }
@@ -77,6 +77,7 @@ TEST(MotionErrorTest, TheWorstClothCountsAndAnErrorHoldsOn) {
     EXPECT_DOUBLE_EQ(error.share(),
                      std::max(estimate(0.01) / motion_limit(model, 0), estimate(0.03) / motion_limit(model, 1)) / 0.5);
     EXPECT_DOUBLE_EQ(error.allowed(), error.error() / error.share());
+    EXPECT_DOUBLE_EQ(error.at_end(), 4 * error.error()) << "2 s, of which half a one has passed";
     const double before = error.error();
     error.saw(26, 16, std::vector{0.0, 0.0}, further);
     EXPECT_LT(error.error(), before);
