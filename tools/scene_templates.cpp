@@ -98,6 +98,7 @@ constexpr std::string_view ball =
       {"corner": "bottom_left", "release": 1.5}, {"corner": "bottom_right", "release": 1.5}
     ]
   }],
+  "solver": {"tolerance_motion": 0.1},            // m/s of error that cloth that crumples may have; asking for less costs
   "colliders": {
     "planes": [{"normal": [0, 1, 0], "offset": 0}],
     "spheres": [{
@@ -130,6 +131,7 @@ constexpr std::string_view cut =
     "active": [0.5, 1.0],                         // seconds
     "path": [{"t": 0.5}, {"t": 1.0, "translate": [1.8, 0, 0]}]
   }],
+  "solver": {"tolerance_motion": 0.1},            // m/s of error that a piece that falls may have; asking for less costs
   "colliders": {"planes": [{"normal": [0, 1, 0], "offset": 0, "friction": 0.5}]},
   "camera": {"position": [1.2, 1.6, 3.6], "target": [0, 0.8, 0.1], "fov": 34}
 }

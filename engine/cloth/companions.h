@@ -14,9 +14,8 @@ struct Companions {
     std::uint32_t coarser;  ///< 0: there is none, in any frame
 };
 /// Returns those beside a frame of so many substeps: a quarter and an eighth, or a half and a quarter where that were
-/// fewer than four and two. Explicit
-/// steps, which soften the cloth where they are fewer than `auto` takes, have one companion with half as many more
-/// instead (or a third less, where that is too many).
+/// fewer than four and two. Explicit steps, which soften the cloth where they are fewer than `auto` takes, have one
+/// companion with half as many more instead (or a third less, where that is too many).
 Companions companions_of(const Method& method, std::uint32_t substeps);
 
 /// The mean power of the step's length with which errors grew in the scenes that were tried.
