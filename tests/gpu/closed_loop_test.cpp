@@ -134,8 +134,8 @@ TEST(ClosedLoop, CrumplingClothIsSensitive) {
     cloth.stiffness.rigid = true;
     cloth.areal_density = 0.03;
     scene.time.fps = 60;
-    scene = automatic(scene, 40);
-    scene.solver.tolerance_motion = 0.005;
+    scene = automatic(scene, 45);
+    scene.solver.tolerance_motion = 0.002;
     const Seen seen = compare_loops(scene);
     EXPECT_FALSE(seen.efforts.front().sensitive);
     EXPECT_TRUE(seen.efforts.back().sensitive);
