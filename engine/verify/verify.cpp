@@ -90,7 +90,7 @@ Finding limit(const char* name, const char* what, const Worst& worst, double all
                         unit)};
 }
 
-/// What method `auto`, or `estimate_error`, says of the positions, where there are any that could be right.
+/// Returns a judgement of the stated position error; where no positions could be right, it says so.
 Finding motion_finding(const FrameWatch::Motion& motion) {
     if (motion.sensitive)
         return {"motion", true,

@@ -15,8 +15,8 @@ SHARED float scattered_by(uint seed) {
     return scattered;
 }
 
-/// Returns where particle `index` is after it; one that is held, with `weight` 0, stays. It goes across the cloth, whose
-/// lines through the particle have the directions `along` and `down`: a strain e within it would be no small
+/// Returns where particle `index` is after it; one that is held, with `weight` 0, stays. It goes across the cloth,
+/// whose lines through the particle have the directions `along` and `down`: a strain e within it would be no small
 /// disturbance, since cloth that does not stretch buckles by its root.
 SHARED vec3 disturbed(vec3 position, float weight, vec3 along, vec3 down, uint index, float amplitude) {
     precise vec3 across = ordered_cross(along, down);

@@ -49,7 +49,7 @@ class Differences {
 
 bool above(const std::optional<double>& limit, double value) { return limit && !(value <= *limit); }
 
-/// What the manifest beside arrays says of their frames.
+/// The frames of arrays, as the manifest beside them tells.
 struct Frames {
     std::size_t count = 0;  ///< 0: there is no manifest
     std::size_t exact = 0;  ///< those before positions are sensitive: equally exact runs part from there on

@@ -31,7 +31,7 @@ struct FrameEffort {
     /// the worst cloth's mass, m, true within a factor of 3 in three of four scenes; NaN where nothing was simulated,
     /// or is `sensitive`.
     double position_error = std::numeric_limits<double>::quiet_NaN();
-    /// What it will be in the last frame if it goes on growing in proportion to time, m.
+    /// The position error of the last frame, if it goes on growing in proportion to time, m.
     double position_error_at_end = std::numeric_limits<double>::quiet_NaN();
     /// The position error that tolerance_motion allows until then, m.
     double position_allowed = std::numeric_limits<double>::quiet_NaN();
