@@ -55,7 +55,8 @@ bool same(const FrameEffort& a, const FrameEffort& b) {
     const auto equal = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
     return a.substeps == b.substeps && a.attempts == b.attempts && a.predictable == b.predictable &&
            a.asleep == b.asleep && equal(a.motion_error, b.motion_error) && equal(a.position_error, b.position_error) &&
-           equal(a.position_error_at_end, b.position_error_at_end) && equal(a.position_allowed, b.position_allowed) && a.sensitive == b.sensitive && equal(a.parted, b.parted);
+           equal(a.position_error_at_end, b.position_error_at_end) && equal(a.position_allowed, b.position_allowed) &&
+           a.sensitive == b.sensitive && equal(a.parted, b.parted);
 }
 
 Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) {
