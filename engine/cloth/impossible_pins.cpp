@@ -47,9 +47,7 @@ double distance(const Vec3& a, const Vec3& b) { return std::hypot(a[0] - b[0], a
 /// Returns how deep (m) a point is below the collider's surface; 0: it is outside.
 double depth_in(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
     if (distance(point, pose.center) > shape_geometry(collider.shape).reach) return 0;  // spares the costly distance
-    const Vec3 local = exact::to_local(pose, point);
-    return std::max(
-        0.0, -std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape));
+    return std::max(0.0, -exact::surface_distance(collider, pose, point));
 }
 
 std::optional<HeldInside> deepest(const SimulationModel& model, const std::vector<Held>& held, double time) {

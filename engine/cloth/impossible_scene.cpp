@@ -18,14 +18,9 @@ namespace {
 /// Wind that takes a cloth to its own speed within this share of a frame moves it in jerks that no loop of frames sees.
 constexpr double least_wind_share = 0.05;
 
-double distance_from(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
-    const Vec3 local = exact::to_local(pose, point);
-    return std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape);
-}
-
 /// Returns the nearest point of the collider; a point inside is its own.
 Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
-    const double distance = distance_from(collider, pose, point);
+    const double distance = exact::surface_distance(collider, pose, point);
     if (!(distance > 0)) return point;
     const double step = 1e-6 * std::max(1.0, distance);
     Vec3 normal{};
@@ -33,7 +28,7 @@ Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& p
         Vec3 before = point, after = point;
         before[axis] -= step;
         after[axis] += step;
-        normal[axis] = distance_from(collider, pose, after) - distance_from(collider, pose, before);
+        normal[axis] = exact::surface_distance(collider, pose, after) - exact::surface_distance(collider, pose, before);
     }
     const double size = length(normal);
     Vec3 foot = point;
@@ -49,6 +44,7 @@ std::string name_of(const SimulationModel& model, std::size_t collider) {
 std::string pinched_between(const SimulationModel& model, const Cloth& cloth, std::size_t a, std::size_t b,
                             std::uint32_t frame) {
     const std::vector<Collider>& all = model.scene.colliders;
+    if (all[a].path.keys.empty() && all[b].path.keys.empty()) return {};  // they are where they were at the start
     const double time = frame / model.scene.time.fps;
     const double room = room_between(all[a], all[b], time), at_start = room_between(all[a], all[b], 0);
     if (!(room < at_start)) return {};

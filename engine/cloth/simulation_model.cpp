@@ -111,6 +111,12 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
     if (ends_iterations() && iterates_cheaply())
         all.push_back({"questions whether a substep needs another iteration",
                        "on a GPU the iterations of small cloth cost less: all are done"});
+    if (!has_companions())
+        all.push_back(
+            {"companion runs",
+             "the position error of a method that is named is estimated where solver.estimate_error says so"});
+    else if (companions(scene.solver.substeps).coarser == 0)
+        all.push_back({"the coarser companion run", "one companion, with more substeps, tells the error"});
     for (const ClothModel& cloth : cloths) {
         all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
         all.insert(all.end(), cloth.scheme.skipped.begin(), cloth.scheme.skipped.end());

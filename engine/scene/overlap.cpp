@@ -69,9 +69,7 @@ StartOverlap overlap(const std::vector<Vec3>& places, const Collider& collider, 
     StartOverlap found;
     for (const Vec3& at : places) {
         if (length(minus(at, pose.center)) > reach) continue;  // spares the costly distance
-        const Vec3 local = exact::to_local(pose, at);
-        const double distance =
-            std::visit([&](const auto& shape) { return exact::shape_distance(shape, local); }, collider.shape);
+        const double distance = exact::surface_distance(collider, pose, at);
         if (!(-distance > least)) continue;
         ++found.particles;
         found.depth = std::max(found.depth, -distance);

@@ -93,9 +93,13 @@ inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foo
 
 inline double shape_distance(const Capsule& capsule, const Vec3& local) { return capsule_sweep(capsule, local); }
 
-inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
-    const Vec3 local = to_local(collider_pose(collider, time), x);
+inline double surface_distance(const Collider& collider, const ColliderPose& pose, const Vec3& x) {
+    const Vec3 local = to_local(pose, x);
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
+}
+
+inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
+    return surface_distance(collider, collider_pose(collider, time), x);
 }
 
 inline double surface_distance(const std::vector<Collider>& colliders, double time, const Vec3& x) {

@@ -24,7 +24,8 @@ std::vector<AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     // Lists of contact may be too short.
     if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
     if (is_run && closed) steps.insert(steps.end(), {remember, compare, disturb, compare_disturbed});
-    if (is_run && model_.has_companions()) steps.insert(steps.end(), {compare_companion, compare_coarser});
+    if (is_run && model_.has_companions()) steps.push_back(compare_companion);
+    if (is_run && has_set(StateSet::coarser)) steps.push_back(compare_coarser);
     return steps;
 }
 

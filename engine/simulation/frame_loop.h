@@ -185,7 +185,9 @@ class FrameLoop {
     /// Returns the steps that the loop takes in a set.
     std::vector<AttemptStep> attempt_steps(StateSet set) const;
     bool has_set(StateSet set) const {
-        return set == StateSet::disturbed ? model_.closed_loop() : model_.has_companions();
+        if (set == StateSet::disturbed) return model_.closed_loop();
+        if (set == StateSet::coarser && model_.companions(state_substeps_).coarser == 0) return false;
+        return model_.has_companions();
     }
     void build_attempts();
     Frame& attempt(AttemptStep step, StateSet set = StateSet::run) {

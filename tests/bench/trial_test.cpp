@@ -24,7 +24,7 @@ TrialResult scene_result(const std::string& name) {
                       {"tolerance", 0.01},
                       {"missed_frames", 0},
                       {"best_wall_s", 1.5},
-                      {"motion_estimate", 0.02},
+                      {"stated_error", 0.02},
                       {"error_at_end", 0.01},
                       {"reference_error", 0.001}};
     return result;
@@ -71,7 +71,7 @@ TEST(TrialTest, TheTextSaysWhatHappened) {
                 HasSubstr("b/1/2 silently missed in 5 of 30 frames: stretch error 0.2 of 0.01, worst spring 0.05\n"));
     EXPECT_THAT(text, HasSubstr("5 scenes: 60.0 % kept, 20.0 % refused, 20.0 % impossible"));
     EXPECT_THAT(text, HasSubstr("20.0 % with frames that were silently missed"));
-    EXPECT_THAT(text, testing::ContainsRegex("estimated over true motion error +4 +2 +2"));
+    EXPECT_THAT(text, testing::ContainsRegex("stated over true position error +4 +2 +2"));
     EXPECT_THAT(text, testing::ContainsRegex("time over the best fixed setting's +5 +2 +2"));
     EXPECT_THAT(text, testing::ContainsRegex("release +5 +1 +1"));
 }

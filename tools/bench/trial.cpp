@@ -58,7 +58,7 @@ std::optional<double> ratio(const TrialResult& result, const char* over, const c
 /// Only where the true error is one: above what the reference itself may be off.
 std::optional<double> estimate_ratio(const TrialResult& result) {
     const std::optional<double> error = number_of(result, "error_at_end"), own = number_of(result, "reference_error");
-    return error && own && *error > 3 * *own ? ratio(result, "motion_estimate", "error_at_end") : std::nullopt;
+    return error && own && *error > 3 * *own ? ratio(result, "stated_error", "error_at_end") : std::nullopt;
 }
 
 std::string distributions(std::span<const TrialResult> results) {
@@ -71,14 +71,14 @@ std::string distributions(std::span<const TrialResult> results) {
     text += distribution("substeps per frame, mean of a scene", results, plain("substeps_mean"));
     text += distribution("substeps per frame, most", results, plain("substeps_max"));
     text += distribution("redone frames, share", results, share("redone_frames", "frames"));
-    text += distribution("frames of no predictable motion, share", results, share("unpredictable_frames", "frames"));
+    text += distribution("sensitive frames, share", results, share("sensitive_frames", "frames"));
     text += distribution("worst RMS stretch error, m/m", results, plain("worst_stretch_error"));
     text += distribution("worst spring, m/m", results, plain("worst_spring"));
     text += distribution("wall time, s per frame", results, share("wall_s", "frames"));
     text += distribution("RMS position error, m, mean over frames", results, plain("error"));
     text += distribution("RMS position error over the cloth's size, worst", results, share("worst_error", "size"));
     text += distribution("the reference's own error, m", results, plain("reference_error"));
-    text += distribution("estimated over true motion error", results, estimate_ratio);
+    text += distribution("stated over true position error", results, estimate_ratio);
     text += distribution("time over the best fixed setting's", results, share("wall_s", "best_wall_s"));
     return text;
 }

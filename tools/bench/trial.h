@@ -24,10 +24,11 @@ constexpr const auto& spellings_of(TrialOutcome) { return trial_outcome_spelling
 /// Numbers by name (SI units); those that could not be told are missing:
 ///   frames, seconds              finished frames after the first, and their simulated time
 ///   size                         m, the largest cloth's longer side
-///   substeps_mean, substeps_max, redone_frames, attempts, unpredictable_frames (their motion is not promised)
+///   substeps_mean, substeps_max, redone_frames, attempts, sensitive_frames (positions are not promised)
 ///   tolerance, worst_stretch_error, worst_spring, wall_s
+///   stated_error                 m, by the run itself, at the end or where the comparison with a reference ends; none
+///                                where it is sensitive
 ///   missed_frames                above a limit of the stretch error, though handed out
-///   motion_estimate              m, the run's own estimates (m/s) over the time of `compared_s`
 /// with a reference:
 ///   reference_substeps, reference_error, compared_s (until the two references part), error, worst_error (RMS position,
 ///   mean over the frames and worst), error_at_end (of what is compared)

@@ -111,23 +111,16 @@ void count_frames(const TrialRun& run, const SceneDescription& scene, Metrics& n
         numbers["substeps_max"] = std::max<double>(numbers["substeps_max"], frame.effort.substeps);
         numbers["substeps_mean"] += frame.effort.substeps / count;
         numbers["redone_frames"] += frame.effort.attempts > 1 ? 1 : 0;
-        numbers["unpredictable_frames"] += frame.effort.predictable ? 0 : 1;
+        numbers["sensitive_frames"] += frame.effort.sensitive ? 1 : 0;
         numbers["attempts"] += frame.effort.attempts;
     }
 }
 
-/// m, over the first `frames`: a frame without an estimate has that of the frame before.
-std::optional<double> motion_estimate(const TrialRun& run, std::size_t frames, double fps) {
-    double sum = 0, rate = NAN;
-    std::size_t before = 0;  // the first estimate stands for the frames before it
-    for (std::size_t k = 0; k < frames; ++k) {
-        if (std::isfinite(run.frames[k].effort.motion_error)) rate = run.frames[k].effort.motion_error;
-        if (std::isfinite(rate))
-            sum += rate / fps * static_cast<double>(1 + std::exchange(before, 0));
-        else
-            ++before;
-    }
-    return std::isfinite(rate) ? std::optional(sum) : std::nullopt;
+/// The position error that the run itself states at the end of its first `frames`.
+void note_stated_error(const TrialRun& run, std::size_t frames, Metrics& numbers) {
+    numbers.erase("stated_error");
+    const double stated = frames > 0 ? run.frames[frames - 1].effort.position_error : NAN;
+    if (std::isfinite(stated)) numbers["stated_error"] = stated;
 }
 
 /// The scene by `line` at four and eight times the most substeps that auto took.
@@ -155,7 +148,7 @@ Reference converged(const Device& device, const SceneDescription& scene, const T
     return reference;
 }
 
-void compare(const SceneDescription& scene, const TrialRun& own, const Reference& reference, Metrics& numbers) {
+void compare(const TrialRun& own, const Reference& reference, Metrics& numbers) {
     if (reference.compared == 0) return;
     double sum = 0, worst = 0, last = 0;
     for (std::size_t k = 0; k < reference.compared; ++k) {
@@ -167,8 +160,7 @@ void compare(const SceneDescription& scene, const TrialRun& own, const Reference
     numbers["error"] = sum / static_cast<double>(reference.compared);
     numbers["worst_error"] = worst;
     numbers["error_at_end"] = last;
-    if (const auto estimate = motion_estimate(own, reference.compared, scene.time.fps))
-        numbers["motion_estimate"] = *estimate;
+    note_stated_error(own, reference.compared, numbers);
 }
 
 /// The soonest setting of a method that keeps the limits, from the coarse ones on, if it is sooner than the best. Its
@@ -284,11 +276,10 @@ TrialResult try_scene(const Device& device, const SceneDescription& scene, bool 
     count_frames(own, scene, result.numbers);
     if (own.outcome == TrialOutcome::tolerance && is_impossible(device, scene, own.frames.size(), stop))
         result.outcome = TrialOutcome::impossible;
-    if (const auto estimate = motion_estimate(own, own.frames.size(), scene.time.fps))
-        result.numbers["motion_estimate"] = *estimate;
+    note_stated_error(own, own.frames.size(), result.numbers);
     if (!with_reference || own.outcome != TrialOutcome::kept) return result;
     const Reference reference = converged(device, scene, own, stop, result.numbers);
-    compare(scene, own, reference, result.numbers);
+    compare(own, reference, result.numbers);
     time_fixed(device, scene, reference, stop, result);
     return result;
 }
