@@ -29,8 +29,7 @@ std::vector<AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     return steps;
 }
 
-template <class Visit>
-void FrameLoop::for_each_attempt(const Visit& visit) {
+void FrameLoop::for_each_attempt(const std::function<void(Frame&)>& visit) {
     for (std::size_t set = 0; set < state_set_count; ++set)
         for (const AttemptStep step : attempt_steps(static_cast<StateSet>(set)))
             visit(attempt(step, static_cast<StateSet>(set)));

@@ -197,8 +197,7 @@ class FrameLoop {
         return attempt(step, set).recorded->commands(slot);
     }
     /// Calls `visit` with the frame of each of them.
-    template <class Visit>
-    void for_each_attempt(const Visit& visit);
+    void for_each_attempt(const std::function<void(Frame&)>& visit);
     Rung& rung(std::uint32_t substeps, StateSet set = StateSet::run);
     struct Asked {
         std::uint32_t last;
