@@ -102,7 +102,7 @@ void store_row(Shares above, Shares below, int y) {
 }
 
 void main() {
-    wind_velocity = wind[given.substep].xyz;  // before anything branches (docs/devices.md)
+    wind_velocity = wind[push.first + given.substep].xyz;  // before anything branches (docs/devices.md)
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
     int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
     if (first_column >= push.grid.x || y >= end) return;

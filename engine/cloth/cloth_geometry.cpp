@@ -88,7 +88,7 @@ void ClothGeometry::hold_pins(const std::vector<Pin>& pins) {
                               {static_cast<int>(particle % grid.columns()), static_cast<int>(particle / grid.columns()),
                                static_cast<int>(dynamic_pins.size()), 0}});
         }
-        dynamic_pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release});
+        dynamic_pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release, index});
     }
     if (!has_motion) skipped.push_back({name + "/pin motion", "no pin has a path"});
     if (!has_release) skipped.push_back({name + "/pin release", "no pin is released"});

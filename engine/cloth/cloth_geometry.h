@@ -26,6 +26,7 @@ struct DynamicPin {
     MotionPath path;
     Vec3 pivot;                     ///< m
     std::optional<double> release;  ///< s
+    std::size_t number;             ///< among the cloth's pins
 };
 
 struct ClothGeometry {

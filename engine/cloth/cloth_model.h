@@ -32,6 +32,7 @@ struct ClothModel : ClothGeometry {
     /// An edge of the cloth is at most so long, m, where it can meet that of a box (shaders/box_edges.comp). 0: the
     /// scene has no box, the cloth's contact is of particles, or its thickness keeps everything clear.
     float edge_reach = 0;
+    std::size_t member = 0;         ///< number of its scene among those of the model
     std::size_t collider_list = 0;  ///< its particles are kept from this list of SimulationModel::kept_colliders
     MethodScheme scheme;
     glsl::WindPush wind;            ///< substep is set per substep

@@ -6,6 +6,7 @@
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
 #include "scene/motion.h"
+#include "scene/vectors.h"
 
 namespace drape {
 
@@ -72,10 +73,6 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
 
 namespace {
 
-bool any_moves(const std::vector<Collider>& colliders) {
-    return std::ranges::any_of(colliders, [](const Collider& collider) { return collider.path.moves(); });
-}
-
 /// Returns h times its rate of change just before a time, by the backward difference of second order.
 RigidTransform pin_velocity(const DynamicPin& pin, double time, double h) {
     constexpr double step = 1.0 / 64;
@@ -106,14 +103,13 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
 }  // namespace
 
 std::size_t collider_record_count(const SimulationModel& model) {
-    const std::vector<Collider>& colliders = model.scene.colliders;
-    return model.kept_colliders.size() * colliders.size() * (any_moves(colliders) ? model.most_substeps() : 1);
+    return model.kept_colliders.size() * model.scene.colliders.size() *
+           (model.colliders_move ? model.most_substeps() : 1);
 }
 
 int first_collider(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep) {
-    const std::vector<Collider>& colliders = model.scene.colliders;
-    const std::size_t lists = any_moves(colliders) ? model.kept_colliders.size() * substep : 0;
-    return static_cast<int>(colliders.size() * (lists + cloth.collider_list));
+    const std::size_t lists = model.colliders_move ? model.kept_colliders.size() * substep : 0;
+    return static_cast<int>(model.scene.colliders.size() * (lists + cloth.collider_list));
 }
 
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders) {
@@ -135,7 +131,7 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
             const Vec3 wind = wind_velocity(scene.wind, 0.5 * (start + end));
             inputs.wind.push_back(row({wind[0], wind[1], wind[2]}, 0, 0));
         }
-        if (substep == 0 || any_moves(scene.colliders))
+        if (substep == 0 || model.colliders_move)
             for (const std::vector<KeptCollider>& list : model.kept_colliders)
                 for (const auto& [collider, way_out] : list)
                     inputs.colliders.push_back(

@@ -31,14 +31,40 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       choice(run.choice),
       options(run.options),
       kept_colliders(run.kept_colliders),
-      windy(run.windy) {
+      windy(run.windy),
+      colliders_move(run.colliders_move) {
     scene.solver.substeps = substeps;
     add_cloths(run.self_contact ? run.self_contact->crossed : std::vector<StartCrossing>{});
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
         cloths[cloth].collider_list = run.cloths[cloth].collider_list;
 }
 
+SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& members)
+    : scene(members.front()->scene),
+      asked_method(members.front()->asked_method),
+      asked_tolerance(members.front()->asked_tolerance),
+      choice(members.front()->choice),
+      options(members.front()->options),
+      windy(members.front()->windy),
+      member_count(members.size()) {
+    scene.cloths.clear();
+    for (std::size_t member = 0; member < members.size(); ++member) {
+        const SimulationModel& one = *members[member];
+        for (std::size_t cloth = 0; cloth < one.cloths.size(); ++cloth) {
+            ClothModel& model = cloths.emplace_back(one.cloths[cloth]);
+            model.name = fmt::format("{}/{}", member, model.name);
+            model.member = member;
+            model.collider_list += kept_colliders.size();
+            scene.cloths.push_back(one.scene.cloths[cloth]);
+            scene.cloths.back().name = model.name;
+        }
+        kept_colliders.insert(kept_colliders.end(), one.kept_colliders.begin(), one.kept_colliders.end());
+        colliders_move = colliders_move || one.colliders_move;
+    }
+}
+
 void SimulationModel::add_colliders() {
+    colliders_move = std::ranges::any_of(scene.colliders, [](const Collider& each) { return each.path.moves(); });
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
         const Cloth& shape = scene.cloths[cloth];
         const std::vector<WayOut> out = ways_out(shape, scene.colliders, recovery_speed);

@@ -20,6 +20,9 @@ struct SimulationModel {
     explicit SimulationModel(const SceneDescription& description, const ModelOptions& options = {});
     /// Makes the same run at another number of substeps, for closed loops.
     SimulationModel(const SimulationModel& run, std::uint32_t substeps);
+    /// Puts scenes of one shape beside each other (cloth/members.h): the cloths of the first come first, each called
+    /// "<member>/<name>". `scene` is the first one's but for the cloths; nothing of two members meets.
+    explicit SimulationModel(const std::vector<const SimulationModel*>& members);
 
     SceneDescription scene;  ///< the scene with the settings in use (`auto` is resolved), its colliders sorted by kind
     SolverMethod asked_method;  ///< the method that the scene file has
@@ -32,6 +35,8 @@ struct SimulationModel {
     /// grows them alike for and that leave them alike.
     std::vector<std::vector<KeptCollider>> kept_colliders;
     bool windy;
+    bool colliders_move = false;   ///< some collider is key-framed: each substep has records of its own
+    std::size_t member_count = 1;  ///< scenes that the cloths are of (ClothModel::member)
     /// Returns the rounds over all colliders per collision step: one collider cannot overlap another.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }
 

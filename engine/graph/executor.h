@@ -45,6 +45,9 @@ class ResourcePool {
     std::optional<vulkan::Buffer> idle_buffer_;
 };
 
+/// Returns the bytes of what these plans use together.
+std::uint64_t planned_bytes(std::span<const std::pair<const Graph*, const Plan*>> plans);
+
 /// Returns why the device cannot give an image a buffer view, of rows `row_pitch` texels apart where that is not 0;
 /// empty when it can. Callers without one use the image alone.
 std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image,

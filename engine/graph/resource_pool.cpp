@@ -198,6 +198,10 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
     });
 }
 
+std::uint64_t planned_bytes(std::span<const std::pair<const Graph*, const Plan*>> plans) {
+    return total_bytes(collect(plans));
+}
+
 std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image, std::uint32_t row_pitch) {
     constexpr VkImageUsageFlags usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;

@@ -18,7 +18,7 @@ class Appended {
   public:
     template <class T>
     std::string array(const char* type, const char* name, int components, const std::vector<T>& values) {
-        const std::string element = fmt::format(
+        std::string element = fmt::format(
             "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" "
             "offset=\"{}\"/>\n",
             type, name, components, bytes_.size());

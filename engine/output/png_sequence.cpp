@@ -22,7 +22,7 @@ bool is_frame_file_name(std::string_view name) {
 PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key)
     : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)), run_key_(std::move(run_key)) {
     for (unsigned worker = 0; worker < std::max(1u, worker_count); ++worker) {
-        workers_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
+        workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
     }
 }
 
@@ -68,7 +68,7 @@ std::vector<FileRecord> PngSequence::finish() {
     return records_;
 }
 
-void PngSequence::work(std::stop_token stop) {
+void PngSequence::work(const std::stop_token& stop) {
     std::vector<std::uint8_t> png;
     std::unique_lock lock(mutex_);
     while (frame_waits_.wait(lock, stop, [this] { return !queue_.empty(); }) && !stop.stop_requested()) {

@@ -54,7 +54,7 @@ class PngSequence {
         FrameValues values;
     };
 
-    void work(std::stop_token stop);
+    void work(const std::stop_token& stop);
     FileRecord write(const Frame& frame, std::vector<std::uint8_t>& png);
     void keep_result(FileRecord record, std::vector<std::uint8_t> buffer);
 

@@ -76,16 +76,21 @@ std::array<double, 9> rotation_matrix(const Vec3& degrees) {
     return matrix;
 }
 
-RigidTransform motion_at(const MotionPath& path, double time) {
+MotionKey key_at(const MotionPath& path, double time) {
     const std::vector<MotionKey>& keys = path.keys;
-    if (keys.empty()) return {};
+    if (keys.empty()) return {time, {}, {}};
     const auto later =
         std::upper_bound(keys.begin(), keys.end(), time, [](double t, const MotionKey& key) { return t < key.time; });
-    if (later == keys.begin()) return {rotation_matrix(keys.front().rotate), keys.front().translate};
+    if (later == keys.begin()) return {time, keys.front().translate, keys.front().rotate};
     const auto k = static_cast<std::size_t>(later - keys.begin()) - 1;
-    if (later == keys.end() || time == keys[k].time) return {rotation_matrix(keys[k].rotate), keys[k].translate};
-    return {rotation_matrix(interpolate(keys, k, time, &MotionKey::rotate)),
-            interpolate(keys, k, time, &MotionKey::translate)};
+    if (later == keys.end() || time == keys[k].time) return {time, keys[k].translate, keys[k].rotate};
+    return {time, interpolate(keys, k, time, &MotionKey::translate), interpolate(keys, k, time, &MotionKey::rotate)};
+}
+
+RigidTransform motion_at(const MotionPath& path, double time) {
+    if (path.keys.empty()) return {};
+    const MotionKey key = key_at(path, time);
+    return {rotation_matrix(key.rotate), key.translate};
 }
 
 }  // namespace drape

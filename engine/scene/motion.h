@@ -18,10 +18,12 @@ struct RigidTransform {
 /// (so a whole turn is exactly the identity), elsewhere within a few ulp.
 std::array<double, 9> rotation_matrix(const Vec3& degrees);
 
-/// Returns the transform of a path at `time` (s). Translation and angles are interpolated component by component: cubic
-/// Hermite between neighbouring keys, slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys (Catmull-Rom on uneven
-/// times), 0 at the first and last key; before and after, the end keys hold. It is exactly the key at a key's time, and
-/// exactly the identity for an empty path.
+/// Returns the key that a path would have at `time` (s). Translation and angles are interpolated component by
+/// component: cubic Hermite between neighbouring keys, slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys
+/// (Catmull-Rom on uneven times), 0 at the first and last key; before and after, the end keys hold. It is exactly the
+/// key at a key's time, and exactly the one of no motion for an empty path.
+MotionKey key_at(const MotionPath& path, double time);
+/// Returns the transform of that key.
 RigidTransform motion_at(const MotionPath& path, double time);
 
 }  // namespace drape

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <json/writer.h>
 
 #include <algorithm>
@@ -41,7 +42,8 @@ class Resolution {
         Reading reading;
         if (document.errors().empty()) {
             for (const std::string& each : overrides_) document.apply_override(each);
-            for (const auto& [pointer, value] : defaults_) document.apply_override(pointer + "=" + value);
+            for (const auto& [pointer, value] : defaults_)
+                document.apply_override(fmt::format("{}={}", pointer, value));
         }
         if (!document.errors().empty()) {
             for (const PlacedError& error : document.errors()) reading.errors.push_back(error.error);

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "solver/cut_pass.h"
+#include "solver/readback_pass.h"
 
 namespace drape {
 
@@ -287,11 +288,7 @@ std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, st
     for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {
         velocities_[cloth].assign(moved[cloth].size(), 0.0f);
         if (substeps == 0) continue;
-        for (std::size_t i = 0; i < moved[cloth].size(); ++i)
-            if (i % 4 != 3)  // w of a displacement counts something else
-                velocities_[cloth][i] =
-                    static_cast<float>((static_cast<double>(moved[cloth][i]) + static_cast<double>(excess[cloth][i])) *
-                                       substeps_per_second);
+        write_velocities(moved[cloth], excess[cloth], substeps_per_second, velocities_[cloth]);
     }
     return {velocities_.begin(), velocities_.end()};
 }

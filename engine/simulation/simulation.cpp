@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <optional>
-#include <set>
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
@@ -15,24 +13,14 @@
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
-#include "scene/overlap.h"
-#include "scene/start.h"
-#include "scene/start_crossings.h"
+#include "simulation/device_parts.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
+#include "simulation/scene_checks.h"
 #include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
 
 namespace drape {
-
-struct Device::Parts {
-    Parts(const std::string& selector, Validation validation)
-        : instance({.validation = validation != Validation::off, .print_messages = validation == Validation::print}),
-          device(instance, selector) {}
-    vulkan::Instance instance;
-    vulkan::Device device;
-    std::unique_ptr<Parts> drawing;  ///< draws the pictures, unless this device does
-};
 
 Device::Device(const std::string& selector, Validation validation)
     : parts_(std::make_shared<Parts>(selector, validation)) {}
@@ -112,58 +100,6 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
         };
     return options;
 }
-
-bool is_box_of(const IndexBox& box, const Cloth& cloth) {
-    return box.first[0] <= box.last[0] && box.first[1] <= box.last[1] && box.last[0] < cloth.grid[0] &&
-           box.last[1] < cloth.grid[1];
-}
-
-/// Returns the scene, if it has what everything else takes for granted; one that was read has it.
-const SceneDescription& checked(const SceneDescription& scene) {
-    SceneResult result;
-    const auto expect = [&result](bool fits, const std::string& pointer, const char* what) {
-        if (!fits) result.errors.push_back({"scene", 0, 0, pointer, fmt::format("expected {}", what)});
-    };
-    std::uint64_t particle_count = 0;
-    std::set<std::string_view> names;
-    expect(!scene.cloths.empty(), "/cloths", "a cloth");
-    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
-        const Cloth& cloth = scene.cloths[i];
-        const std::string at = fmt::format("/cloths/{}", i);
-        particle_count += std::uint64_t{cloth.grid[0]} * cloth.grid[1];
-        expect(std::min(cloth.grid[0], cloth.grid[1]) >= 2 && particle_count <= scene_particle_limit, at + "/grid",
-               "at least 2 x 2 particles and no more than a scene may have");
-        expect(names.insert(cloth.name).second && !cloth.name.empty(), at + "/name", "a name no other cloth has");
-        for (const double side : cloth.size) expect(side > 0 && std::isfinite(side), at + "/size", "lengths above 0");
-        expect(cloth.areal_density > 0 && std::isfinite(cloth.areal_density), at + "/areal_density", "a mass above 0");
-        for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
-            expect(is_box_of(cloth.pins[pin].particles, cloth), fmt::format("{}/pins/{}", at, pin),
-                   "particles of the grid");
-        for (std::size_t hole = 0; hole < cloth.holes.size(); ++hole)
-            expect(is_box_of(cloth.holes[hole], cloth), fmt::format("{}/holes/{}", at, hole), "particles of the grid");
-    }
-    expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
-    expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
-    expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
-           "pixels, of 1 or 4 samples");
-    expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
-    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i)
-        expect(leaves_a_cell(scene.cloths[i]), fmt::format("/cloths/{}/holes", i), "holes that leave a cell");
-    if (result.errors.empty() && scene.overlap == Overlap::refuse)
-        for (const StartOverlap& overlap : start_overlaps(scene))
-            expect(false, fmt::format("/cloths/{}", overlap.cloth),
-                   ("a start outside all colliders: " + overlap_text(scene, overlap)).c_str());
-    if (result.errors.empty() && cloths_meet(scene))
-        for (const StartCrossing& crossing : start_crossings(scene))
-            expect(!is_refused(scene, crossing), fmt::format("/cloths/{}", crossing.second),
-                   ("cloths that start apart: " + crossing_text(scene, crossing)).c_str());
-    if (!result.errors.empty()) throw SceneFailure(std::move(result));
-    return scene;
-}
-
-}  // namespace
-
-namespace {
 
 constexpr const char* watch_part = "watch";
 constexpr const char* passages_part = "passages";
@@ -261,7 +197,7 @@ struct Simulation::Parts {
 };
 
 Simulation::Simulation(const SceneDescription& scene, const SimulationOptions& options, const Device& device)
-    : parts_(std::make_unique<Parts>(checked(scene), options, device)) {}
+    : parts_(std::make_unique<Parts>(checked_scene(scene), options, device)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 

@@ -1,6 +1,7 @@
 // The state on its way from old resources to new ones, and what follows a cut: only what changed crosses the bus.
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "solver/cloth_solver.h"
@@ -131,6 +132,57 @@ void ClothSolver::upload_state(const graph::ResourcePool& pool,
     for (const std::string& name : names_in_sets(borne_name))
         if (const auto borne = state.find(name); borne != state.end() && pool.has(name))
             vulkan::upload_range(pool.device(), pool.buffer(name), 0, borne->second);  // lists have more room
+}
+
+std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& pool,
+                                                     std::span<const std::size_t> wanted) const {
+    std::vector<ClothBytes> states(wanted.size());
+    for_state_images(
+        pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
+            const auto is_in_it = [&](std::size_t cloth) { return std::ranges::find(cloths, cloth) != cloths.end(); };
+            if (set != StateSet::run || std::ranges::none_of(wanted, is_in_it)) return;
+            std::vector<std::byte> bytes(std::size_t{image.description().width} * image.description().height *
+                                         row.element.size);
+            vulkan::download(pool.device(), image, bytes);
+            const std::size_t size = bytes.size() / cloths.size();
+            for (std::size_t k = 0; k < wanted.size(); ++k) {
+                if (!is_in_it(wanted[k])) continue;
+                const auto part = std::span(bytes).subspan(place_of_[wanted[k]] * size, size);
+                states[k][std::string(row.name)].assign(part.begin(), part.end());
+            }
+        });
+    return states;
+}
+
+void ClothSolver::upload_cloths(const graph::ResourcePool& pool,
+                                const std::map<std::size_t, const ClothBytes*>& states) const {
+    struct Upload {
+        const vulkan::Image* image;
+        std::vector<vulkan::RowsOfImage> parts;
+    };
+    std::vector<Upload> uploads;
+    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
+                               std::span<const std::size_t> cloths) {
+        if (set != StateSet::run) return;
+        const auto height = static_cast<std::uint32_t>(image.description().height / cloths.size());
+        const std::size_t size = std::size_t{image.description().width} * height * row.element.size;
+        Upload& upload = uploads.emplace_back(Upload{&image, {}});
+        for (const std::size_t cloth : cloths) {
+            const auto state = states.find(cloth);
+            if (state == states.end()) continue;
+            std::vector<std::byte> bytes;
+            if (!state->second) {
+                bytes = row.start ? row.start(context(cloth)) : std::vector<std::byte>(size);
+            } else if (const auto saved = state->second->find(std::string(row.name)); saved != state->second->end()) {
+                bytes = saved->second;
+            }
+            if (bytes.size() != size)
+                throw std::invalid_argument("the saved state is not of this scene: field '" + std::string(row.name) +
+                                            "'");
+            upload.parts.push_back({place_of_[cloth] * height, std::move(bytes)});
+        }
+    });
+    for (const Upload& upload : uploads) vulkan::upload_rows(pool.device(), *upload.image, upload.parts);
 }
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,

@@ -123,7 +123,9 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     set_ = set;
     for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
-    if (model_.windy) inputs_.wind = graph.buffer<glsl::vec4>("wind", model_.most_substeps(), Lifetime::host_input);
+    if (model_.windy)
+        inputs_.wind =
+            graph.buffer<glsl::vec4>("wind", model_.member_count * model_.most_substeps(), Lifetime::host_input);
     if (model_.has_companions())
         inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
@@ -342,19 +344,21 @@ void ClothSolver::add_statistics(graph::Graph& graph) {
     if (model_.scene.colliders.empty()) graph.skip("statistics: penetration", "no colliders in the scene");
 }
 
-glsl::StatisticsRecord ClothSolver::statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
-                                                      std::size_t cloth) const {
-    glsl::StatisticsRecord record;
-    const auto bytes = part_of(cloth, pool.buffer(statistics_readback_name(state_name(cloth)), slot));
-    std::memcpy(&record, bytes.data(), sizeof record);
-    return record;
+std::vector<std::span<const std::byte>> ClothSolver::statistics_records(const graph::ResourcePool& pool,
+                                                                        std::uint32_t slot) const {
+    std::vector<std::span<const std::byte>> records;
+    for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+        records.push_back(part_of(cloth, pool.buffer(statistics_readback_name(state_name(cloth)), slot)));
+    return records;
 }
 
 std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot,
                                                      const SimulationModel& run) const {
     std::vector<ClothStatistics> all;
+    const std::vector<std::span<const std::byte>> records = statistics_records(pool, slot);
     for (const ClothModel& cloth : run.cloths) {
-        const glsl::StatisticsRecord record = statistics_record(pool, slot, all.size());
+        glsl::StatisticsRecord record;
+        std::memcpy(&record, records[all.size()].data(), sizeof record);
         all.push_back(cloth_statistics(run, cloth, record));
         if (!run.adaptive()) continue;
         glsl::uvec4 used;
@@ -404,14 +408,18 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
 
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                                const SimulationModel& run) const {
-    const FrameInputs inputs = frame_inputs(run, frame);
+    write_inputs(pool, slot, frame_inputs(run, frame), run.scene.solver.substeps);
+}
+
+void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
+                               std::uint32_t substeps) const {
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
         if (!inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),
                          inputs.pins[cloth]);
-    write_together(pool, slot, inputs, run.scene.solver.substeps);
+    write_together(pool, slot, inputs, substeps);
 }
 
 }  // namespace drape

@@ -21,6 +21,9 @@ struct CutImages {
     std::size_t index_count, vertex_count;  ///< those of the triangles that were drawn
 };
 
+/// The state of a cloth, by field.
+using ClothBytes = std::map<std::string, std::vector<std::byte>>;
+
 /// Returns whether a cut leaves so much to draw that it needs other buffers.
 bool draws_outgrown(const CutImages& before, const CutTopology& topology);
 
@@ -77,6 +80,11 @@ class ClothSolver {
     std::map<std::string, std::vector<std::byte>> download_state(const graph::ResourcePool& pool) const;
     void upload_state(const graph::ResourcePool& pool,
                       const std::map<std::string, std::vector<std::byte>>& state) const;
+    /// Fetches the state of some cloths.
+    std::vector<ClothBytes> download_cloths(const graph::ResourcePool& pool, std::span<const std::size_t> cloths) const;
+    /// Uploads the state of some cloths and leaves the others as they are; null: as the cloth starts. Throws
+    /// std::invalid_argument where one is not of such a cloth, before anything is uploaded.
+    void upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states) const;
     /// Uploads the parts of a cut cloth's fields that differ from `before`.
     void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
     /// Copies the host's side of a cloth's fields, for `upload_cut` to compare with.
@@ -89,6 +97,8 @@ class ClothSolver {
     }
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                       const SimulationModel& run) const;
+    void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
+                      std::uint32_t substeps) const;
 
     /// Writes how an attempt changes the length of each cloth's substeps.
     void write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
@@ -113,6 +123,10 @@ class ClothSolver {
 
     const SimulationModel& model() const { return model_; }
     std::size_t pipeline_count() const { return pipelines_.size(); }
+
+    /// Returns the bytes of each cloth's statistics, where the slot's last finished frame has left them.
+    std::vector<std::span<const std::byte>> statistics_records(const graph::ResourcePool& pool,
+                                                               std::uint32_t slot) const;
 
   private:
     FieldContext context(std::size_t cloth, const FrameNeeds& needs = {}) const {
@@ -158,8 +172,6 @@ class ClothSolver {
     void for_each_dispatch(const Add& add);
     template <class Add>
     void for_each_cloth(const Add& add);
-    glsl::StatisticsRecord statistics_record(const graph::ResourcePool& pool, std::uint32_t slot,
-                                             std::size_t cloth) const;
     /// Adds the tension that steps of a method do not keep, for the statistics.
     void add_tension(graph::Graph& graph, ClothState& state);
     void add_dispatches(graph::Graph& graph, const Step& step);

@@ -15,7 +15,7 @@ std::string suffix_of(StateSet set) {
 }
 
 template <class Row>
-std::string in_set(std::string name, const Row& row, StateSet set) {
+std::string in_set(const std::string& name, const Row& row, StateSet set) {
     return row.life == FieldLife::state ? name + suffix_of(set) : name;
 }
 

@@ -45,4 +45,12 @@ void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph
         });
 }
 
+void write_velocities(std::span<const float> moved, std::span<const float> excess, double substeps_per_second,
+                      std::span<float> velocities) {
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const double sum = static_cast<double>(moved[i]) + static_cast<double>(excess[i]);
+        velocities[i] = i % 4 == 3 ? 0.0f : static_cast<float>(sum * substeps_per_second);  // w counts something else
+    }
+}
+
 }  // namespace drape

@@ -12,6 +12,11 @@ std::string readback_name(const std::string& state, std::string_view what);
 /// Copies an image of four floats per particle, the cloths' `what`, into a host_output buffer.
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what);
 
+/// Returns what the statistics take for the velocity (end_velocity.h), m/s: x y z and 0 per particle, of displacement
+/// and excess displacement that were read back, m per substep.
+void write_velocities(std::span<const float> moved, std::span<const float> excess, double substeps_per_second,
+                      std::span<float> velocities);
+
 /// Copies `byte_count` bytes of a buffer from `offset` on into a host_output buffer called `host_name`.
 void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle buffer, std::uint64_t offset,
                          std::uint64_t byte_count, const std::string& host_name);

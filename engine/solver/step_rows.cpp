@@ -71,6 +71,7 @@ std::string box_edges_label(Place p) { return p.step.after_edges ? "box edges ag
 graph::PushConstants wind_push(Place p) {
     glsl::WindPush push = p.cloth->model->wind;
     push.substep = static_cast<int>(p.step.substep);
+    push.first = static_cast<int>(p.cloth->model->member * p.model.most_substeps());
     return push;
 }
 glsl::PinPush pins_of(Place p) {

@@ -128,6 +128,12 @@ void upload(const Device& device, const Image& image, std::span<const std::byte>
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
 /// Uploads rows of an image from `first_row` on; the rest of its contents stays. It must be in GENERAL.
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes);
+/// Bytes of whole rows of an image.
+struct RowsOfImage {
+    std::uint32_t first_row;
+    std::vector<std::byte> bytes;
+};
+void upload_rows(const Device& device, const Image& image, std::span<const RowsOfImage> parts);
 /// Uploads bytes of a buffer from `offset` on; the rest stays.
 void upload_range(const Device& device, const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes);
 void download(const Device& device, const Image& image, std::span<std::byte> bytes);

@@ -112,21 +112,34 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
 }
 
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes) {
+    const RowsOfImage part{first_row, {bytes.begin(), bytes.end()}};
+    upload_rows(device, image, std::span(&part, 1));
+}
+
+void upload_rows(const Device& device, const Image& image, std::span<const RowsOfImage> parts) {
     const ImageDescription& description = image.description();
     const std::uint64_t row = std::uint64_t{description.width} * texel_size(description.format);
-    const std::uint64_t count = bytes.size() / row;
-    if (bytes.size() % row != 0 || first_row + count > description.height)
-        throw VulkanError(
-            fmt::format("image {} has no {} bytes from row {} on", description.name, bytes.size(), first_row));
-    if (count == 0) return;
-    const Buffer source = staging(device, description.name, bytes.size(), BufferHome::upload);
-    std::memcpy(source.mapped().data(), bytes.data(), bytes.size());
-    device.run_once([&](VkCommandBuffer commands) {
-        VkBufferImageCopy region = whole(image);
-        region.imageOffset.y = static_cast<std::int32_t>(first_row);
+    std::vector<VkBufferImageCopy> regions;
+    std::vector<std::byte> all;
+    for (const RowsOfImage& part : parts) {
+        const std::uint64_t count = part.bytes.size() / row;
+        if (part.bytes.size() % row != 0 || part.first_row + count > description.height)
+            throw VulkanError(fmt::format("image {} has no {} bytes from row {} on", description.name,
+                                          part.bytes.size(), part.first_row));
+        if (count == 0) continue;
+        VkBufferImageCopy& region = regions.emplace_back(whole(image));
+        region.bufferOffset = all.size();
+        region.imageOffset.y = static_cast<std::int32_t>(part.first_row);
         region.imageExtent.height = static_cast<std::uint32_t>(count);
+        all.insert(all.end(), part.bytes.begin(), part.bytes.end());
+    }
+    if (regions.empty()) return;
+    const Buffer source = staging(device, description.name, all.size(), BufferHome::upload);
+    std::memcpy(source.mapped().data(), all.data(), all.size());
+    device.run_once([&](VkCommandBuffer commands) {
         full_barrier(commands);
-        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL,
+                               static_cast<std::uint32_t>(regions.size()), regions.data());
         full_barrier(commands);
     });
 }

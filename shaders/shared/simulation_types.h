@@ -88,12 +88,12 @@ struct AllTwistPush {
 
 struct WindPush {
     ivec2 grid;
-    int substep;             // index into the wind buffer
+    int substep;
     float inverse_step;      // 1 / h
     float drag_coefficient;  // air_density (Cd - Cl) / 2
     float lift_coefficient;  // air_density Cl / 2
     float area_limit;        // m^2, largest area of a triangle that the wind feels, twice its area at rest
-    float unused;
+    int first;               // index of the first substep's wind, of the cloth's own scene
 };
 
 struct CollisionPush {

@@ -52,6 +52,7 @@ class Device {
 
   private:
     friend class Simulation;
+    friend class Ensemble;
     struct Parts;
     std::shared_ptr<Parts> parts_;
 };

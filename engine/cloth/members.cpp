@@ -1,0 +1,120 @@
+#include "cloth/members.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace drape {
+
+namespace {
+
+using Difference = std::optional<std::string>;
+
+template <class Value>
+Difference differ(const std::string& pointer, const Value& first, const std::type_identity_t<Value>& other) {
+    if (first == other) return std::nullopt;
+    return fmt::format("{} is {}, not {}", pointer, other, first);
+}
+
+std::string kinds(const std::vector<Collider>& colliders) {
+    std::vector<std::string_view> names;
+    for (const Collider& collider : colliders) names.push_back(collider_lists[collider.shape.index()]);
+    std::ranges::sort(names);
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string boxes(const std::vector<IndexBox>& boxes) {
+    std::string text;
+    for (const IndexBox& box : boxes)
+        text += fmt::format("{}{}-{}", text.empty() ? "" : ", ", fmt::join(box.first, " "), fmt::join(box.last, " "));
+    return text.empty() ? "none" : text;
+}
+
+std::string pins(const std::vector<Pin>& pins) {
+    std::vector<IndexBox> held;
+    std::string moves;
+    for (const Pin& pin : pins) {
+        held.push_back(pin.particles);
+        moves += fmt::format(" {}{}", pin.path.keys.empty() ? "at rest" : "moving", pin.release ? ", released" : "");
+    }
+    return boxes(held) + moves;
+}
+
+Difference cloth_difference(const std::string& at, const Cloth& first, const Cloth& other) {
+    const auto grid = [](const Cloth& cloth) { return fmt::format("{} x {}", cloth.grid[0], cloth.grid[1]); };
+    const auto text = [](bool is) { return std::string(is ? "true" : "false"); };
+    const auto there = [](const Cloth& cloth) { return std::string(cloth.self_collision ? "there" : "absent"); };
+    for (const Difference& found :
+         {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
+          differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
+          differ(at + "/pins", pins(first.pins), pins(other.pins)),
+          differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
+          differ(at + "/contact", spelling(contact_spellings, first.contact),
+                 spelling(contact_spellings, other.contact)),
+          differ(at + "/self_collision", there(first), there(other))})
+        if (found) return found;
+    return std::nullopt;
+}
+
+Difference solver_difference(const SolverSettings& first, const SolverSettings& other) {
+    for (const Difference& found : {differ("/solver/method", named(first.method).name, named(other.method).name),
+                                    differ("/solver/substeps", first.substeps, other.substeps),
+                                    differ("/solver/iterations", first.iterations, other.iterations),
+                                    differ("/solver/tolerance", first.tolerance, other.tolerance),
+                                    differ("/solver/collide", spelling(collide_spellings, first.collide),
+                                           spelling(collide_spellings, other.collide)),
+                                    differ("/solver/tethers", first.tethers, other.tethers),
+                                    differ("/solver/estimate_error", first.estimate_error, other.estimate_error)})
+        if (found) return found;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> shape_difference(const SceneDescription& first, const SceneDescription& other) {
+    const auto blows = [](const SceneDescription& scene) {
+        return std::string(scene.wind.blows() ? "blowing" : "none");
+    };
+    if (auto found = differ("/cloths", fmt::format("a list of {}", first.cloths.size()),
+                            fmt::format("a list of {}", other.cloths.size())))
+        return found;
+    for (std::size_t k = 0; k < first.cloths.size(); ++k)
+        if (auto found = cloth_difference(fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k])) return found;
+    for (const Difference& found : {differ("/time/fps", first.time.fps, other.time.fps),
+                                    differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
+                                    differ("/wind", blows(first), blows(other)),
+                                    differ("/cutters", fmt::format("a list of {}", first.cutters.size()),
+                                           fmt::format("a list of {}", other.cutters.size()))})
+        if (found) return found;
+    return solver_difference(first.solver, other.solver);
+}
+
+std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
+    if (model.asked_method == SolverMethod::automatic)
+        return "method auto gives each member substeps of its own: name the method that it chooses";
+    if (model.scene.solver.estimate_error) return "companion runs estimate the error of each member";
+    if (model.self_contact) return "contact between cloths works on all cloths of a scene at once";
+    if (!model.scene.cutters.empty()) return "cuts make the members' cloths differ";
+    if (model.adaptive()) return "iterations end by the tolerance, in each member after a number of its own";
+    return std::nullopt;
+}
+
+FrameInputs joined_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members) {
+    FrameInputs joined;
+    for (const FrameInputs& one : members) {
+        joined.wind.insert(joined.wind.end(), one.wind.begin(), one.wind.end());
+        joined.pins.insert(joined.pins.end(), one.pins.begin(), one.pins.end());
+    }
+    const std::uint32_t sets = all.colliders_move ? all.scene.solver.substeps : 1;
+    for (std::uint32_t set = 0; set < sets; ++set)
+        for (const FrameInputs& one : members) {
+            const auto count = static_cast<std::ptrdiff_t>(one.colliders.size() / sets);
+            const auto first = one.colliders.begin() + set * count;
+            joined.colliders.insert(joined.colliders.end(), first, first + count);
+        }
+    return joined;
+}
+
+}  // namespace drape

@@ -1,0 +1,110 @@
+// Many scenes of one shape are simulated together: one dispatch for all, each with numbers of its own. A member's
+// result is that of its scene alone on the same device, to the bit (cyclic reduction of lines on GPUs included).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drape/simulation.h"
+
+namespace drape {
+
+/// Controls that steps of an ensemble may be given (EnsembleActions): what is not asked for costs nothing.
+struct EnsembleControls {
+    bool wind = false;       ///< scenes without wind then have it: at 0 m/s
+    bool pins = false;       ///< every pin may be moved
+    bool colliders = false;  ///< every collider may be moved
+};
+
+struct EnsembleOptions {
+    bool normals = false;
+    EnsembleControls controls;
+    Kernels kernels = Kernels::automatic();
+    PictureView view;  ///< of pictures
+};
+
+/// What members are to do in a step, all of them, in order. An empty list leaves that as it is: as the scene has it, or
+/// where the last action put it. Numbers are finite.
+struct EnsembleActions {
+    std::span<const double> wind;  ///< [member, 3], m/s during the step; its gusts are over
+    /// [member, pin, 6]: where the pins of all cloths, in order, are at the step's end, on the way there at constant
+    /// speed: m and degrees, as a key of a pin's path has them (MotionKey).
+    std::span<const double> pins;
+    /// [member, collider, 6]: the same of the colliders, those of SceneDescription::colliders sorted by kind.
+    std::span<const double> colliders;
+};
+
+/// Thrown for actions that cannot be taken, before any member goes on.
+class ActionError : public Error {
+  public:
+    ActionError(const std::string& text, std::size_t member) : Error(text), member_(member) {}
+    std::size_t member() const { return member_; }
+
+  private:
+    std::size_t member_;
+};
+
+/// Four floats per particle of one cloth of every member, on the library's memory until the next step, reset or
+/// restore.
+struct MemberArray {
+    const float* data = nullptr;
+    std::size_t members = 0, rows = 0, columns = 0;
+    std::size_t member_stride = 0;  ///< floats from one member's to the next's
+};
+
+class Ensemble {
+  public:
+    /// All members are at frame 0, their start. Throws SceneFailure for what no scene may have, Error for members of
+    /// unlike shape, saying which differs and in what, and DeviceError, which tells how many fit, when they are too
+    /// many, before anything is allocated for them.
+    explicit Ensemble(const std::vector<SceneDescription>& members, const EnsembleOptions& options = {},
+                      const Device& device = Device());
+    ~Ensemble();
+    Ensemble(Ensemble&&) noexcept;
+
+    std::size_t size() const;
+    /// Returns the scene of a member as it runs.
+    const SceneDescription& scene(std::size_t member) const;
+    /// Returns why members do not share dispatches; nothing: they do.
+    const std::optional<std::string>& sharing_obstacle() const;
+    /// Returns the number of passes in a step of all members together.
+    std::size_t pass_count() const;
+    /// Returns the milliseconds that the device spent on the last step; 0 without timestamps.
+    double device_milliseconds() const;
+
+    /// Simulates the next frame of every member. One that fails says so (`failure`), and the others go on. Throws
+    /// ActionError before anything is done, and DeviceError, after which this ensemble is over.
+    void step(const EnsembleActions& actions = {});
+    /// Takes members back to their starts, at frame 0, and forgets their failures and actions.
+    void reset(std::span<const std::size_t> members);
+
+    /// Returns the frame that a member is at.
+    std::uint32_t frame(std::size_t member) const;
+    /// Returns why a member's results are none since it failed; nothing: it has not.
+    const std::optional<FrameFailure>& failure(std::size_t member) const;
+    /// Returns the statistics of a member's cloths.
+    const std::vector<ClothStatistics>& statistics(std::size_t member) const;
+    MemberArray positions(std::size_t cloth) const;   ///< x y z, m, and w: relative inverse mass, 0: held
+    MemberArray velocities(std::size_t cloth) const;  ///< x y z, m/s, at the frames' ends
+    MemberArray normals(std::size_t cloth) const;     ///< unit x y z of the front; only with EnsembleOptions::normals
+    /// Returns a picture of a member by its scene's camera and size: rows from the top, sRGB, four bytes a pixel. It is
+    /// valid until the next.
+    std::span<const std::uint8_t> picture(std::size_t member);
+
+    /// Returns what a member needs to go on from here to the same bits.
+    SimulationState save(std::size_t member) const;
+    /// Takes members to saved states, one for each, of any member of an ensemble of the same scenes' shape and options.
+    /// Throws Error where one is not such a state, before any member changes.
+    void restore(std::span<const std::size_t> members, std::span<const SimulationState> states);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace drape

@@ -1,0 +1,195 @@
+#include "drape/ensemble.h"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
+#include "base/byte_stream.h"
+#include "cloth/members.h"
+#include "cloth/statistics_transfer.h"
+#include "picture/pictures.h"
+#include "simulation/device_parts.h"
+#include "simulation/member_runs.h"
+
+namespace drape {
+
+namespace {
+
+constexpr const char* member_part = "member";
+
+/// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false for what is of none.
+template <class Archive>
+bool transfer(Archive& archive, Member& member, MemberMotion& motion) {
+    archive(member.frame, member.pins_acted, member.colliders_acted);
+    bool failed = member.failure.has_value();
+    archive(failed);
+    if (failed) {
+        FrameFailure& failure = member.failure ? *member.failure : member.failure.emplace();
+        auto kind = static_cast<std::uint8_t>(failure.kind);
+        archive(kind, failure.reason, failure.frame, failure.criterion, failure.value, failure.bound, failure.cloth);
+        failure.kind = static_cast<FrameFailure::Kind>(kind);
+    } else {
+        member.failure.reset();
+    }
+    motion.transfer(archive);
+    return member.watch->transfer(archive);
+}
+
+Members made(const std::vector<SceneDescription>& scenes, const EnsembleControls& controls, const ModelOptions& options,
+             const std::function<void(Members&)>& check_two) {
+    if (scenes.empty()) throw Error("an ensemble needs a member");
+    Members members;
+    bool colliders_move = false;
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        if (const auto found = shape_difference(scenes.front(), scenes[k]))
+            throw Error(fmt::format(
+                "member {} is of another shape than member 0: {}; an ensemble's members share grids, pinned particles, "
+                "kinds of colliders and the method (`drape sweep` runs any)",
+                k, *found));
+        members.push_back(std::make_unique<Member>(scenes[k], controls, options));
+        if (members.size() == 2) check_two(members);
+        colliders_move = colliders_move || members.back()->model.colliders_move;
+    }
+    for (const auto& member : members) member->model.colliders_move = colliders_move;
+    return members;
+}
+
+}  // namespace
+
+struct Ensemble::Parts {
+    Parts(const std::vector<SceneDescription>& scenes, const EnsembleOptions& wanted, const Device& given)
+        : device(given),
+          options(wanted),
+          members(made(scenes, wanted.controls, ModelOptions{.device = device_kind(given.info())},
+                       [&](Members& two) {
+                           if (!drape::sharing_obstacle(two.front()->model))
+                               check_room(given.parts_->device, two, scenes.size(), run_options());
+                       })),
+          obstacle(drape::sharing_obstacle(members.front()->model)) {
+        const bool acts = wanted.controls.wind || wanted.controls.pins || wanted.controls.colliders;
+        if (acts && members.front()->model.closed_loop())
+            throw Error(
+                "method auto does frames again, with those before them, and cannot be given actions: name a method");
+        const auto make_runs = obstacle ? run_apart : run_together;
+        runs = make_runs(given.parts_->device, members, run_options());
+        for (const auto& member : members) member->judge();
+    }
+
+    MemberRunOptions run_options() const { return {options.normals, options.kernels}; }
+    void check_numbers(std::span<const std::size_t> numbers) const {
+        for (const std::size_t number : numbers)
+            if (number >= members.size())
+                throw Error(fmt::format("there is no member {}: they are 0 to {}", number, members.size() - 1));
+    }
+
+    Device device;
+    EnsembleOptions options;
+    Members members;
+    std::optional<std::string> obstacle;
+    std::unique_ptr<MemberRuns> runs;
+    /// Those of the members that were drawn last. Each has the images of a picture.
+    std::map<std::size_t, std::unique_ptr<Pictures>> pictures;
+    std::vector<std::uint8_t> picture;
+};
+
+Ensemble::Ensemble(const std::vector<SceneDescription>& members, const EnsembleOptions& options, const Device& device)
+    : parts_(std::make_unique<Parts>(members, options, device)) {}
+Ensemble::~Ensemble() = default;
+Ensemble::Ensemble(Ensemble&&) noexcept = default;
+
+std::size_t Ensemble::size() const { return parts_->members.size(); }
+const SceneDescription& Ensemble::scene(std::size_t member) const { return parts_->members.at(member)->model.scene; }
+const std::optional<std::string>& Ensemble::sharing_obstacle() const { return parts_->obstacle; }
+std::size_t Ensemble::pass_count() const { return parts_->runs->pass_count(); }
+double Ensemble::device_milliseconds() const { return parts_->runs->device_milliseconds(); }
+std::uint32_t Ensemble::frame(std::size_t member) const { return parts_->members.at(member)->frame; }
+const std::optional<FrameFailure>& Ensemble::failure(std::size_t member) const {
+    return parts_->members.at(member)->failure;
+}
+const std::vector<ClothStatistics>& Ensemble::statistics(std::size_t member) const {
+    return parts_->members.at(member)->statistics;
+}
+
+void Ensemble::step(const EnsembleActions& actions) {
+    Members& members = parts_->members;
+    check_actions(actions, parts_->options.controls, members.front()->model, members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
+    parts_->runs->step();
+    for (const auto& member : members) member->judge();
+}
+
+void Ensemble::reset(std::span<const std::size_t> members) {
+    parts_->check_numbers(members);
+    for (const std::size_t number : members) parts_->members[number]->begin_anew();
+    parts_->runs->reset(members);
+    for (const std::size_t number : members) parts_->members[number]->judge();
+}
+
+MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::position); }
+MemberArray Ensemble::velocities(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::velocity); }
+MemberArray Ensemble::normals(std::size_t cloth) const {
+    if (!parts_->options.normals) throw Error("no normals: the ensemble was made without");
+    return parts_->runs->array(cloth, MemberValue::normal);
+}
+
+SimulationState Ensemble::save(std::size_t number) const {
+    Member& member = *parts_->members.at(number);
+    SimulationState state = parts_->runs->save(number);
+    ByteWriter writer;
+    MemberMotion motion(member.model);
+    transfer(writer, member, motion);  // a writer changes nothing
+    state[member_part] = writer.take();
+    return state;
+}
+
+void Ensemble::restore(std::span<const std::size_t> members, std::span<const SimulationState> states) {
+    parts_->check_numbers(members);
+    if (members.size() != states.size())
+        throw Error(fmt::format("{} states for {} members", states.size(), members.size()));
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        const auto part = states[k].find(member_part);
+        if (part == states[k].end()) throw Error("the saved state is not of an ensemble's member");
+        Member& member = *parts_->members[members[k]];
+        member.begin_anew();
+        MemberMotion motion(member.model);
+        ByteReader reader(part->second);
+        if (!transfer(reader, member, motion) || reader.left() > 0)
+            throw Error("the saved state is not of this scene: its part 'member' is of something else");
+        motion.put_into(member.model);
+    }
+    parts_->runs->restore(members, states);
+}
+
+std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {
+    constexpr std::size_t most_kept = 4;
+    Member& member = *parts_->members.at(number);
+    auto& all = parts_->pictures;
+    // What draws a member has its own colliders' paths.
+    if (parts_->options.controls.colliders || (all.size() >= most_kept && !all.contains(number))) all.clear();
+    std::unique_ptr<Pictures>& pictures = all[number];
+    if (!pictures) {
+        const ImageSettings& image = member.model.scene.image;
+        PictureOptions options;
+        options.width = image.size[0];
+        options.height = image.size[1];
+        options.samples = image.samples;
+        options.view = parts_->options.view;
+        pictures = std::make_unique<Pictures>(parts_->device.parts_->device, member.model, options);
+    }
+    FinishedFrame frame;
+    frame.frame = member.frame;
+    std::vector<std::vector<float>> kept;
+    for (std::size_t cloth = 0; cloth < member.model.cloths.size(); ++cloth) {
+        const MemberArray all_of = positions(cloth);
+        const float* const first = all_of.data + number * all_of.member_stride;
+        kept.emplace_back(first, first + 4 * all_of.rows * all_of.columns);
+    }
+    for (const std::vector<float>& each : kept) frame.positions.emplace_back(each);
+    const auto keep = [&](const FinishedFrame& drawn) { parts_->picture.assign(drawn.rgba.begin(), drawn.rgba.end()); };
+    pictures->draw(frame, keep);
+    pictures->flush(keep);
+    return parts_->picture;
+}
+
+}  // namespace drape

@@ -1,0 +1,64 @@
+// A member of an ensemble: its scene's model, which actions change, and its last frame.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cloth/watch.h"
+#include "drape/ensemble.h"
+
+namespace drape {
+
+/// The numbers of a model that actions change.
+struct MemberMotion {
+    explicit MemberMotion(const SimulationModel& model);
+    void put_into(SimulationModel& model) const;
+
+    /// Writes or reads it, by a ByteWriter or a ByteReader.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        archive(wind.velocity[0], wind.velocity[1], wind.velocity[2], wind.gust.amplitude);
+        for (std::vector<MotionPath>* paths : {&pins, &colliders})
+            for (MotionPath& path : *paths) {
+                auto count = static_cast<std::uint64_t>(path.keys.size());
+                archive(count);
+                path.keys.resize(count < most_keys ? count : 0);
+                for (MotionKey& key : path.keys)
+                    archive(key.time, key.translate[0], key.translate[1], key.translate[2], key.rotate[0],
+                            key.rotate[1], key.rotate[2]);
+            }
+    }
+
+    static constexpr std::uint64_t most_keys = 1'000'000;
+    Wind wind;
+    std::vector<MotionPath> pins;       ///< of all cloths, those that can move
+    std::vector<MotionPath> colliders;  ///< sorted by kind
+};
+
+struct Member {
+    /// `controls`: these are made able to move.
+    Member(const SceneDescription& scene, const EnsembleControls& controls, const ModelOptions& options);
+    Member(const Member&) = delete;
+    Member& operator=(const Member&) = delete;
+
+    SimulationModel model;
+    MemberMotion start;  ///< before any action
+    std::optional<Watch> watch;
+    std::uint32_t frame = 0;
+    std::optional<FrameFailure> failure;
+    std::vector<ClothStatistics> statistics;
+    bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
+
+    /// Makes it what it was before frame 0.
+    void begin_anew();
+    /// Looks at the statistics of the frame that it is at.
+    void judge();
+};
+
+/// Throws ActionError where an ensemble's members cannot take these actions.
+void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                   std::size_t member_count);
+/// Makes the model of a member do its part of the actions in its next frame.
+void act(const EnsembleActions& actions, std::size_t number, Member& member);
+
+}  // namespace drape

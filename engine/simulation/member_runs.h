@@ -1,0 +1,49 @@
+// How the frames of an ensemble's members are simulated: together, or each by a loop of its own.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/member.h"
+#include "vulkan/device.h"
+
+namespace drape {
+
+/// The arrays that members hand out.
+enum class MemberValue : std::uint8_t { position, velocity, normal };
+
+class MemberRuns {
+  public:
+    virtual ~MemberRuns() = default;
+    /// Simulates the frame after the one that each member is at, by its model as it is now, and takes its statistics.
+    virtual void step() = 0;
+    /// Takes members, which are as they begin again, to their starts, and their statistics there.
+    virtual void reset(std::span<const std::size_t> members) = 0;
+    /// Returns what the member's next frame depends on, beside its model.
+    virtual SimulationState save(std::size_t member) const = 0;
+    /// Takes members, whose frame and model are those of the states, to them. Throws Error where one is not that,
+    /// before any is changed on the device.
+    virtual void restore(std::span<const std::size_t> members, std::span<const SimulationState> states) = 0;
+    virtual MemberArray array(std::size_t cloth, MemberValue value) const = 0;
+    virtual std::size_t pass_count() const = 0;
+    virtual double device_milliseconds() const { return 0; }
+};
+
+using Members = std::vector<std::unique_ptr<Member>>;
+
+struct MemberRunOptions {
+    bool normals;
+    Kernels kernels;
+};
+
+/// Throws DeviceError, telling how many fit, where so many members like these two have no room on the device together.
+void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options);
+/// Members share dispatches.
+std::unique_ptr<MemberRuns> run_together(const vulkan::Device& device, Members& members,
+                                         const MemberRunOptions& options);
+/// Each has a frame loop.
+std::unique_ptr<MemberRuns> run_apart(const vulkan::Device& device, Members& members, const MemberRunOptions& options);
+
+}  // namespace drape

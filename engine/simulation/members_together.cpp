@@ -1,0 +1,222 @@
+// Members of one shape are one model to the solver: a step of all is one graph, whose dispatches they share.
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "cloth/members.h"
+#include "simulation/member_runs.h"
+#include "solver/cloth_solver.h"
+#include "solver/readback_pass.h"
+
+namespace drape {
+
+namespace {
+
+struct Planned {
+    graph::Graph graph;
+    graph::Plan plan;
+    std::unique_ptr<graph::RecordedPlan> recorded;
+};
+
+std::vector<const SimulationModel*> models_of(const Members& members, std::size_t count) {
+    std::vector<const SimulationModel*> models;
+    for (std::size_t k = 0; k < count; ++k) models.push_back(&members[k]->model);
+    return models;
+}
+
+class MembersTogether : public MemberRuns {
+  public:
+    MembersTogether(const vulkan::Device& device, Members& members, std::size_t count, const MemberRunOptions& options)
+        : members_(members),
+          options_(options),
+          cloths_each_(members.front()->model.cloths.size()),
+          all_(models_of(members, count)),
+          solver_(device, all_, options.kernels),
+          slots_(device) {
+        plan(look_, false);
+        plan(step_, true);
+    }
+    std::uint64_t bytes() const { return graph::planned_bytes(plans()); }
+    void allocate(const vulkan::Device& device) {
+        pool_ = std::make_unique<graph::ResourcePool>(device, plans());
+        for (Planned* planned : {&look_, &step_})
+            planned->recorded = std::make_unique<graph::RecordedPlan>(planned->graph, planned->plan, *pool_,
+                                                                      graph::TimestampMode::stages);
+        solver_.upload(*pool_);
+        positions_ = solver_.readback(*pool_, slot, "position");
+        moved_ = solver_.readback(*pool_, slot, "displacement");
+        excess_ = solver_.readback(*pool_, slot, "excess displacement");
+        if (options_.normals) normals_ = solver_.readback(*pool_, slot, "normal");
+        records_ = solver_.statistics_records(*pool_, slot);
+        look();
+        for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
+    }
+
+    void step() override {
+        for (const auto& member : members_) ++member->frame;
+        submit(step_);
+        for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
+    }
+
+    void reset(std::span<const std::size_t> numbers) override {
+        std::map<std::size_t, const ClothBytes*> states;
+        for (const std::size_t number : numbers)
+            for (std::size_t k = 0; k < cloths_each_; ++k) states[number * cloths_each_ + k] = nullptr;
+        put(states, numbers);
+    }
+
+    SimulationState save(std::size_t number) const override {
+        std::vector<std::size_t> cloths(cloths_each_);
+        std::iota(cloths.begin(), cloths.end(), number * cloths_each_);
+        SimulationState state;
+        const std::vector<ClothBytes> fields = solver_.download_cloths(*pool_, cloths);
+        for (std::size_t k = 0; k < cloths_each_; ++k)
+            for (const auto& [name, bytes] : fields[k]) state[fmt::format("field/{}/{}", k, name)] = bytes;
+        return state;
+    }
+
+    void restore(std::span<const std::size_t> numbers, std::span<const SimulationState> saved) override {
+        std::vector<ClothBytes> fields(numbers.size() * cloths_each_);
+        std::map<std::size_t, const ClothBytes*> states;
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            for (std::size_t k = 0; k < cloths_each_; ++k) {
+                ClothBytes& own = fields[i * cloths_each_ + k];
+                const std::string prefix = fmt::format("field/{}/", k);
+                for (const auto& [name, bytes] : saved[i])
+                    if (name.starts_with(prefix)) own[name.substr(prefix.size())] = bytes;
+                states[numbers[i] * cloths_each_ + k] = &own;
+            }
+        put(states, numbers);
+    }
+
+    MemberArray array(std::size_t cloth, MemberValue value) const override {
+        if (value == MemberValue::velocity) return velocities(cloth);
+        return array_of(value == MemberValue::position ? positions_ : normals_, cloth, gathered_);
+    }
+    std::size_t pass_count() const override { return step_.plan.passes.size(); }
+    double device_milliseconds() const override { return milliseconds_; }
+
+  private:
+    static constexpr std::uint32_t slot = 0;
+    using Views = std::vector<std::span<const float>>;
+
+    void plan(Planned& planned, bool simulates) {
+        graph::Graph& graph = planned.graph;
+        solver_.declare(graph, {.drawing = options_.normals, .statistics = true});
+        if (simulates) solver_.add_simulation(graph);
+        if (options_.normals) {
+            solver_.add_normals(graph);
+            solver_.add_readback(graph, Field::normal, "normal");
+        }
+        solver_.add_readback(graph, Field::position, "position");
+        solver_.add_readback(graph, Field::displacement, "displacement");
+        solver_.add_readback(graph, Field::end_excess, "excess displacement");
+        solver_.add_statistics(graph);
+        planned.plan = graph::make_plan(graph);
+    }
+    std::array<std::pair<const graph::Graph*, const graph::Plan*>, 2> plans() const {
+        return {{{&look_.graph, &look_.plan}, {&step_.graph, &step_.plan}}};
+    }
+
+    /// Runs it with every member's inputs of the frame that it is at.
+    void submit(Planned& planned) {
+        std::vector<FrameInputs> inputs;
+        inputs.reserve(members_.size());
+        for (const auto& member : members_) inputs.push_back(frame_inputs(member->model, member->frame));
+        solver_.write_inputs(*pool_, slot, joined_inputs(all_, inputs), all_.scene.solver.substeps);
+        slots_.submit(slot, planned.recorded->commands(slot));
+        slots_.wait(slot);
+        milliseconds_ = 0;
+        for (const graph::Timing& timing : planned.recorded->timings(slot)) milliseconds_ += timing.milliseconds;
+    }
+    /// Hands out what there is.
+    void look() { submit(look_); }
+
+    void put(const std::map<std::size_t, const ClothBytes*>& states, std::span<const std::size_t> numbers) {
+        try {
+            solver_.upload_cloths(*pool_, states);
+        } catch (const std::invalid_argument& wrong) {
+            throw Error(wrong.what());
+        }
+        look();
+        for (const std::size_t number : numbers) take_statistics(number);
+    }
+
+    void take_statistics(std::size_t number) {
+        Member& member = *members_[number];
+        member.statistics.clear();
+        for (std::size_t k = 0; k < cloths_each_; ++k) {
+            glsl::StatisticsRecord record;
+            std::memcpy(&record, records_[number * cloths_each_ + k].data(), sizeof record);
+            member.statistics.push_back(cloth_statistics(member.model, member.model.cloths[k], record));
+        }
+    }
+
+    /// Returns the views of every member's cloth as one array, gathered first where they do not lie evenly.
+    MemberArray array_of(const Views& views, std::size_t cloth, std::vector<float>& gathered) const {
+        const Grid& grid = all_.cloths[cloth].grid;
+        MemberArray array{nullptr, members_.size(), grid.rows(), grid.columns(),
+                          std::size_t{4} * grid.particle_count()};
+        const auto of = [&](std::size_t member) { return views[member * cloths_each_ + cloth]; };
+        const std::ptrdiff_t stride = array.members > 1 ? of(1).data() - of(0).data() : 0;
+        bool even = array.members == 1 || stride > 0;
+        for (std::size_t k = 1; even && k < array.members; ++k) even = of(k).data() - of(k - 1).data() == stride;
+        array.data = of(0).data();
+        if (even && array.members > 1) array.member_stride = static_cast<std::size_t>(stride);
+        if (even) return array;
+        gathered.clear();
+        for (std::size_t k = 0; k < array.members; ++k) gathered.insert(gathered.end(), of(k).begin(), of(k).end());
+        array.data = gathered.data();
+        return array;
+    }
+
+    MemberArray velocities(std::size_t cloth) const {
+        const double per_second = all_.scene.time.fps * all_.scene.solver.substeps;
+        const Grid& grid = all_.cloths[cloth].grid;
+        const std::size_t stride = std::size_t{4} * grid.particle_count();
+        velocities_.resize(std::max(velocities_.size(), cloth + 1));
+        velocities_[cloth].resize(stride * members_.size());
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            const std::size_t at = k * cloths_each_ + cloth;
+            write_velocities(moved_[at], excess_[at], per_second,
+                             std::span(velocities_[cloth]).subspan(k * stride, stride));
+        }
+        return {velocities_[cloth].data(), members_.size(), grid.rows(), grid.columns(), stride};
+    }
+
+    Members& members_;
+    MemberRunOptions options_;
+    std::size_t cloths_each_;
+    SimulationModel all_;
+    ClothSolver solver_;
+    Planned look_, step_;
+    std::unique_ptr<graph::ResourcePool> pool_;
+    vulkan::FrameSlots slots_;  ///< goes, and waits for work in flight, before what that uses
+    double milliseconds_ = 0;
+    // What the slot's last frame left on the host, cloth by cloth, member by member.
+    Views positions_, moved_, excess_, normals_;
+    std::vector<std::span<const std::byte>> records_;
+    mutable std::vector<float> gathered_;
+    mutable std::vector<std::vector<float>> velocities_;  ///< by cloth
+};
+
+}  // namespace
+
+void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options) {
+    const auto bytes_of = [&](std::size_t some) { return MembersTogether(device, two, some, options).bytes(); };
+    const std::uint64_t both = bytes_of(2), each = both - bytes_of(1), rest = both - 2 * each;
+    const std::uint64_t room = device.budget().limit() - device.budget().used();
+    if (rest + each * count > room)
+        throw vulkan::VulkanError(fmt::format("{} members need {} MiB, and the device has {} MiB left: {} fit", count,
+                                              (rest + each * count) >> 20, room >> 20,
+                                              room > rest ? (room - rest) / each : 0));
+}
+
+std::unique_ptr<MemberRuns> run_together(const vulkan::Device& device, Members& members,
+                                         const MemberRunOptions& options) {
+    auto together = std::make_unique<MembersTogether>(device, members, members.size(), options);
+    together->allocate(device);
+    return together;
+}
+
+}  // namespace drape

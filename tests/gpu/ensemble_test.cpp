@@ -1,0 +1,378 @@
+// A member of an ensemble is its scene alone, to the bit, whatever the others do; the seed that draws them is printed
+// where a test fails.
+#include "drape/ensemble.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "library_device.h"
+
+namespace drape {
+namespace {
+
+using test::library_device;
+using testing::HasSubstr;
+using EnsembleTest = test::LibraryTest;
+
+/// A sheet that hangs from a moving corner and another that lets go, in wind, over a ball and a floor.
+constexpr const char* base = R"({
+  "time": {"fps": 60, "frames": 30},
+  "wind": {"velocity": [2, 0.3, -1], "gust": {"amplitude": 1, "period": 0.7, "seed": 3}},
+  "cloths": [{"name": "sheet", "grid": [17, 12], "size": [0.8, 0.6],
+              "placement": {"origin": [-0.4, 0.9, 0], "u": [1, 0, 0], "v": [0, -0.6, 0.8], "jitter": 0.001},
+              "areal_density": 0.2, "stiffness": {"stretch": 400, "shear": 80, "bend": 1e-5}, "damping": 0.2,
+              "pins": [{"corner": "top_left", "path": [{"t": 0}, {"t": 0.3, "translate": [0.1, 0.05, 0.1]}]},
+                       {"corner": "top_right", "release": 0.06}]}],
+  "colliders": {"spheres": [{"center": [0, 0.55, 0.1], "radius": 0.15,
+                             "path": [{"t": 0}, {"t": 0.5, "translate": [0, 0.2, 0]}]}],
+                "planes": [{"normal": [0, 1, 0], "offset": 0}]},
+  "solver": {"method": "line", "substeps": 4}
+})";
+
+SceneDescription scene_of(const std::vector<std::string>& overrides = {}) {
+    SceneResult result = read_scene_text(base, "test", overrides);
+    if (!result.scene) throw SceneFailure(std::move(result));
+    return *result.scene;
+}
+
+/// Draws every number that members may have of their own.
+std::vector<SceneDescription> drawn(const SceneDescription& scene, std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 53>(random);
+    };
+    std::vector<SceneDescription> members(count, scene);
+    for (SceneDescription& member : members) {
+        member.gravity = {between(-1, 1), between(-10, -8), between(-1, 1)};
+        member.wind.velocity = {between(-4, 4), between(-1, 1), between(1, 4)};
+        member.wind.gust.seed = static_cast<std::uint32_t>(random());
+        member.wind.drag = between(0.5, 1.5);
+        for (Cloth& cloth : member.cloths) {
+            cloth.size = {between(0.7, 0.9), between(0.5, 0.7)};
+            cloth.areal_density = between(0.1, 0.4);
+            cloth.stiffness.stretch = between(200, 600);
+            cloth.stiffness.shear = between(40, 120);
+            if (cloth.stiffness.bend > 0) cloth.stiffness.bend = between(1e-6, 1e-4);
+            cloth.damping = between(0, 0.5);
+            cloth.friction = between(0, 0.8);
+            cloth.thickness = between(0.002, 0.01);
+            cloth.velocity = {between(-1, 1), between(-1, 1), between(-1, 1)};
+            cloth.placement.origin[1] += between(0, 0.1);
+            cloth.placement.seed = static_cast<std::uint32_t>(random());
+            for (Pin& pin : cloth.pins)
+                if (pin.path.moves()) pin.path.keys[1].translate = {between(0, 0.1), between(0, 0.1), between(0, 0.1)};
+        }
+        for (Collider& collider : member.colliders) {
+            collider.friction = between(0, 0.8);
+            if (auto* sphere = std::get_if<Sphere>(&collider.shape)) sphere->radius = between(0.1, 0.2);
+            if (collider.path.moves()) collider.path.keys[1].translate[1] = between(-0.1, 0.3);
+        }
+    }
+    return members;
+}
+
+std::vector<float> of_member(const MemberArray& array, std::size_t member) {
+    const float* const first = array.data + member * array.member_stride;
+    return {first, first + 4 * array.rows * array.columns};
+}
+
+bool same_bytes(std::span<const float> one, std::span<const float> other) {
+    return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size_bytes()) == 0;
+}
+
+/// What a frame of a scene alone is.
+struct Alone {
+    explicit Alone(const SceneDescription& scene)
+        : simulation(scene, {.velocities = true, .normals = true, .keep_promises = false}, library_device()) {}
+    Simulation simulation;
+};
+
+/// Steps an ensemble and every member's scene alone.
+void expect_each_as_alone(const std::vector<SceneDescription>& scenes, std::uint32_t frames, bool together) {
+    Ensemble ensemble(scenes, {.normals = true}, library_device());
+    EXPECT_EQ(ensemble.sharing_obstacle().has_value(), !together) << ensemble.sharing_obstacle().value_or("");
+    std::vector<Alone> alone(scenes.begin(), scenes.end());
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+        if (frame > 0) ensemble.step();
+        for (std::size_t k = 0; k < scenes.size(); ++k) {
+            ASSERT_TRUE(alone[k].simulation.step());
+            const FinishedFrame& one = alone[k].simulation.frame();
+            const std::string where = fmt::format("frame {}, member {}", frame, k);
+            ASSERT_EQ(ensemble.frame(k), frame);
+            ASSERT_EQ(ensemble.failure(k).has_value(), one.failure.has_value()) << where;
+            for (std::size_t cloth = 0; cloth < scenes[k].cloths.size(); ++cloth) {
+                ASSERT_TRUE(same_bytes(of_member(ensemble.positions(cloth), k), one.positions[cloth])) << where;
+                ASSERT_TRUE(same_bytes(of_member(ensemble.velocities(cloth), k), one.velocities[cloth])) << where;
+                ASSERT_TRUE(same_bytes(of_member(ensemble.normals(cloth), k), one.normals[cloth])) << where;
+                const ClothStatistics &own = ensemble.statistics(k)[cloth], &other = one.statistics[cloth];
+                ASSERT_EQ(own.kinetic_energy, other.kinetic_energy) << where;
+                ASSERT_EQ(own.potential_energy, other.potential_energy) << where;
+                ASSERT_EQ(own.stretch_error_rms, other.stretch_error_rms) << where;
+                ASSERT_EQ(own.penetration, other.penetration) << where;
+            }
+        }
+    }
+}
+
+constexpr std::uint32_t seed = 51;
+
+TEST_F(EnsembleTest, MembersOfEveryMethodAreAsAlone) {
+    for (const char* method : {"line", "explicit", "relax"}) {
+        const SceneDescription scene = scene_of({fmt::format("/solver/method=\"{}\"", method)});
+        SCOPED_TRACE(fmt::format("{}, seed {}", method, seed));
+        expect_each_as_alone(drawn(scene, 7, seed), 8, true);
+    }
+}
+
+TEST_F(EnsembleTest, SixtyFourMembersOfEveryMethodAreAsAlone) {
+    for (const char* method : {"line", "explicit", "relax"}) {
+        const SceneDescription scene = scene_of({fmt::format("/solver/method=\"{}\"", method)});
+        SCOPED_TRACE(fmt::format("{}, seed {}", method, seed));
+        expect_each_as_alone(drawn(scene, 64, seed + 1), 12, true);
+    }
+}
+
+TEST_F(EnsembleTest, ScenesOfSeveralClothsWithHolesAndTethers) {
+    SceneDescription scene = scene_of({"/solver/tethers=true"});
+    scene.cloths[0].stiffness.rigid = true;
+    scene.cloths[0].holes = {{{4, 3}, {8, 7}}};
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "other";
+    scene.cloths[1].placement.origin[2] += 1;
+    Cloth third = scene.cloths[0];
+    third.name = "third";
+    third.grid = {9, 20};
+    third.holes.clear();
+    third.pins = {scene.cloths[0].pins[0]};
+    scene.cloths.push_back(third);
+    expect_each_as_alone(drawn(scene, 5, seed), 6, true);
+}
+
+TEST_F(EnsembleTest, WithoutWindAndColliders) {
+    SceneDescription scene = scene_of({"/solver/substeps=3"});
+    scene.colliders.clear();
+    std::vector<SceneDescription> members = drawn(scene, 6, seed);
+    for (SceneDescription& member : members) member.wind = {};
+    expect_each_as_alone(members, 6, true);
+}
+
+/// Some members' colliders move, others' rest.
+TEST_F(EnsembleTest, OfMembersWhoseCollidersRestBesideOthers) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 4, seed);
+    for (Collider& collider : members[2].colliders) collider.path = {};
+    expect_each_as_alone(members, 8, true);
+}
+
+TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
+    const std::vector<std::vector<std::string>> kinds = {
+        {"/solver/method=\"auto\"", "/solver/tolerance_motion=1"},
+        {"/cloths/0/self_collision={}"},
+        {"/solver/method=\"relax\"", "/solver/iterations=4", "/solver/tolerance=0.2"},
+        {"/cutters=[{\"triangle\": [[-1, 0.7, -1], [1, 0.7, -1], [0, 0.7, 2]], \"active\": [0.02, 0.05]}]"},
+        {"/solver/estimate_error=true"}};
+    for (const std::vector<std::string>& overrides : kinds) {
+        SCOPED_TRACE(overrides.front());
+        expect_each_as_alone(drawn(scene_of(overrides), 3, seed), 6, false);
+    }
+}
+
+TEST_F(EnsembleTest, TheNumberOfPassesIsThatOfOneMember) {
+    const SceneDescription scene = scene_of();
+    const Ensemble one(drawn(scene, 1, seed), {}, library_device()), many(drawn(scene, 40, seed), {}, library_device());
+    EXPECT_GT(one.pass_count(), 10u);
+    EXPECT_EQ(many.pass_count(), one.pass_count());
+}
+
+TEST_F(EnsembleTest, AMemberThatDivergesLeavesTheOthersAsTheyAre) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 4, seed);
+    Ensemble right(members, {}, library_device());
+    members[1].cloths[0].velocity = {1e36, 0, 0};
+    Ensemble ensemble(members, {}, library_device());
+    for (int frame = 0; frame < 10; ++frame) {
+        right.step();
+        ensemble.step();
+    }
+    ASSERT_TRUE(ensemble.failure(1).has_value());
+    EXPECT_THAT(ensemble.failure(1)->reason, HasSubstr("cloth 'sheet'"));
+    for (const std::size_t k : {0u, 2u, 3u}) {
+        EXPECT_FALSE(ensemble.failure(k).has_value());
+        EXPECT_TRUE(same_bytes(of_member(ensemble.positions(0), k), of_member(right.positions(0), k)));
+    }
+    // What it fails at is told of the frame that it failed in, however many follow.
+    const FrameFailure failure = *ensemble.failure(1);
+    ensemble.step();
+    EXPECT_EQ(ensemble.failure(1)->reason, failure.reason);
+}
+
+void expect_reset_and_restored(const std::vector<std::string>& overrides) {
+    const std::vector<SceneDescription> members = drawn(scene_of(overrides), 5, seed);
+    Ensemble fresh(members, {}, library_device()), ensemble(members, {}, library_device());
+    std::vector<std::vector<std::vector<float>>> frames;  // by frame and member
+    const auto keep = [](const Ensemble& from) {
+        std::vector<std::vector<float>> all;
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            all.push_back(of_member(from.positions(0), k));
+            const std::vector<float> velocities = of_member(from.velocities(0), k);
+            all.back().insert(all.back().end(), velocities.begin(), velocities.end());
+        }
+        return all;
+    };
+    frames.push_back(keep(fresh));
+    for (int frame = 1; frame < 10; ++frame) {
+        fresh.step();
+        frames.push_back(keep(fresh));
+    }
+    for (int frame = 0; frame < 3; ++frame) ensemble.step();
+    const SimulationState saved = ensemble.save(3);
+    ensemble.step();
+    const std::size_t two[] = {1, 4}, three[] = {3};
+    ensemble.reset(two);
+    ensemble.restore(three, std::span(&saved, 1));
+    for (int further = 0; further < 4; ++further) {
+        const std::vector<std::vector<float>> now = keep(ensemble);
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const std::uint32_t frame = ensemble.frame(k);
+            EXPECT_EQ(frame, std::uint32_t(further) + (k == 1 || k == 4 ? 0u : k == 3 ? 3u : 4u));
+            EXPECT_TRUE(same_bytes(now[k], frames[frame][k])) << "member " << k << ", frame " << frame;
+        }
+        ensemble.step();
+    }
+}
+
+TEST_F(EnsembleTest, ResetAndRestoredMembersGoOnToTheSameBits) {
+    for (const char* method : {"line", "explicit", "relax"}) {
+        SCOPED_TRACE(method);
+        expect_reset_and_restored({fmt::format("/solver/method=\"{}\"", method)});
+    }
+    SCOPED_TRACE("contact");
+    expect_reset_and_restored({"/cloths/0/self_collision={}"});
+}
+
+/// Controls that are never used change nothing.
+TEST_F(EnsembleTest, WithoutActionsControlsChangeNoBit) {
+    const std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    Ensemble plain(members, {}, library_device());
+    Ensemble controlled(members, {.controls = {.wind = true, .pins = true, .colliders = true}}, library_device());
+    for (int frame = 0; frame < 8; ++frame) {
+        plain.step();
+        controlled.step();
+    }
+    for (std::size_t k = 0; k < members.size(); ++k)
+        EXPECT_TRUE(same_bytes(of_member(plain.positions(0), k), of_member(controlled.positions(0), k)));
+}
+
+TEST_F(EnsembleTest, ActionsPutPinsAndCollidersWhereTheySay) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    for (SceneDescription& member : members) member.cloths[0].pins[1].release.reset();
+    Ensemble ensemble(members, {.controls = {.wind = true, .pins = true, .colliders = true}}, library_device());
+    const std::vector<float> start = of_member(ensemble.positions(0), 2);
+    std::vector<double> pins(3 * 2 * 6), wind(3 * 3);
+    for (int frame = 1; frame <= 5; ++frame) {
+        pins[2 * 12 + 0] = 0.01 * frame;       // member 2, the first pin: along x
+        pins[2 * 12 + 6 + 1] = -0.01 * frame;  // its second: down
+        ensemble.step({.wind = wind, .pins = pins});
+    }
+    const std::vector<float> now = of_member(ensemble.positions(0), 2);
+    const std::size_t right = 4 * 16;
+    EXPECT_NEAR(now[0], start[0] + 0.05, 1e-6);
+    EXPECT_NEAR(now[1], start[1], 1e-6);
+    EXPECT_NEAR(now[right + 1], start[right + 1] - 0.05, 1e-6);
+    // It goes there at constant speed: half of the way is half of the step's.
+    const std::vector<float> velocity = of_member(ensemble.velocities(0), 2);
+    EXPECT_NEAR(velocity[0], 0.01 * 60, 1e-4);
+    // Without another action it stays.
+    for (int frame = 0; frame < 3; ++frame) ensemble.step();
+    const std::vector<float> later = of_member(ensemble.positions(0), 2);
+    EXPECT_EQ(later[0], now[0]);
+    EXPECT_EQ(later[right + 1], now[right + 1]);
+    // A saved state knows of that.
+    const SimulationState saved = ensemble.save(2);
+    const std::size_t two[] = {2};
+    ensemble.step();
+    const std::vector<float> next = of_member(ensemble.positions(0), 2);
+    ensemble.reset(two);
+    ensemble.restore(two, std::span(&saved, 1));
+    ensemble.step();
+    EXPECT_TRUE(same_bytes(of_member(ensemble.positions(0), 2), next));
+}
+
+TEST_F(EnsembleTest, ActionsThatCannotBeTakenLeaveEveryMemberWhereItIs) {
+    const std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    Ensemble ensemble(members, {.controls = {.wind = true, .pins = true}}, library_device());
+    ensemble.step();
+    const std::vector<float> before = of_member(ensemble.positions(0), 0);
+    const auto refused = [&](const EnsembleActions& actions) -> std::pair<std::string, std::size_t> {
+        try {
+            ensemble.step(actions);
+        } catch (const ActionError& error) {
+            return {error.what(), error.member()};
+        }
+        return {"nothing", 99};
+    };
+    std::vector<double> wind(9), pins(3 * 12), few(5);
+    wind[4] = std::numeric_limits<double>::quiet_NaN();
+    const auto [text, member] = refused({.wind = wind});
+    EXPECT_THAT(text, HasSubstr("member 1: wind: number 1 is nan"));
+    EXPECT_EQ(member, 1u);
+    pins[35] = 1e300;
+    EXPECT_THAT(refused({.pins = pins}).first, HasSubstr("member 2: pins: number 11 is 1e+300"));
+    EXPECT_THAT(refused({.wind = few}).first, HasSubstr("wind has 5 numbers, 3 members with 3 each are 9"));
+    EXPECT_THAT(refused({.colliders = pins}).first, HasSubstr("made without control of colliders"));
+    EXPECT_EQ(ensemble.frame(0), 1u);
+    EXPECT_TRUE(same_bytes(of_member(ensemble.positions(0), 0), before));
+}
+
+std::string refusal(const std::vector<SceneDescription>& members, const EnsembleOptions& options = {}) {
+    try {
+        Ensemble(members, options, library_device());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+TEST_F(EnsembleTest, MembersOfUnlikeShapeAreRefusedWithTheReason) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    members[2].cloths[0].grid = {18, 12};
+    EXPECT_THAT(refusal(members), HasSubstr("member 2 is of another shape than member 0: /cloths/0/grid is 18 x 12, not 17 x 12"));
+    members = drawn(scene_of(), 2, seed);
+    members[1].colliders.pop_back();
+    EXPECT_THAT(refusal(members), HasSubstr("/colliders is "));
+    members = drawn(scene_of(), 2, seed);
+    members[1].solver.substeps = 5;
+    EXPECT_THAT(refusal(members), HasSubstr("/solver/substeps is 5, not 4"));
+    members = drawn(scene_of(), 2, seed);
+    members[1].wind = {};
+    EXPECT_THAT(refusal(members), HasSubstr("/wind is none, not blowing"));
+    EXPECT_THAT(refusal({}), HasSubstr("needs a member"));
+    EXPECT_THAT(refusal(drawn(scene_of({"/solver/method=\"auto\""}), 2, seed), {.controls = {.pins = true}}),
+                HasSubstr("name a method"));
+}
+
+TEST_F(EnsembleTest, TooManyMembersAreRefusedBeforeAnythingIsMade) {
+    const std::uint64_t used = library_device().memory_used();
+    const std::vector<SceneDescription> members(3000, scene_of({"/cloths/0/grid=[512,512]"}));
+    EXPECT_THAT(refusal(members), HasSubstr(" fit"));
+    EXPECT_EQ(library_device().memory_used(), used);
+}
+
+TEST_F(EnsembleTest, PicturesAreThoseOfTheMemberAlone) {
+    std::vector<SceneDescription> members = drawn(scene_of({"/image={\"size\": [96, 64], \"samples\": 1}"}), 3, seed);
+    Ensemble ensemble(members, {}, library_device());
+    for (int frame = 0; frame < 4; ++frame) ensemble.step();
+    Simulation alone(members[1], {.draw = true}, library_device());
+    for (int frame = 0; frame < 5; ++frame) alone.step();
+    const auto own = ensemble.picture(1);
+    const auto& other = alone.frame().rgba;
+    ASSERT_EQ(own.size(), 96u * 64 * 4);
+    EXPECT_TRUE(std::ranges::equal(own, other));
+}
+
+}  // namespace
+}  // namespace drape
