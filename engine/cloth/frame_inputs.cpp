@@ -120,11 +120,19 @@ std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector
 }
 
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
+    FrameInputs inputs;
+    take_frame_inputs(model, frame, inputs);
+    return inputs;
+}
+
+void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameInputs& inputs) {
     const SceneDescription& scene = model.scene;
     const double frame_start = (static_cast<double>(frame) - 1) / scene.time.fps;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    FrameInputs inputs;
+    inputs.wind.clear();
+    inputs.colliders.clear();
     inputs.pins.resize(model.cloths.size());
+    for (std::vector<glsl::PinMotion>& pins : inputs.pins) pins.clear();
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
         const double start = frame_start + substep * h, end = frame_start + (substep + 1) * h;
         if (model.windy) {
@@ -140,7 +148,6 @@ FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame) {
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
                 inputs.pins[cloth].push_back(pin_motion(pin, start, end));
     }
-    return inputs;
 }
 
 }  // namespace drape

@@ -34,5 +34,7 @@ struct FrameInputs {
 /// Returns inputs for simulating from frame-1 to `frame` (1 .. frame_count-1). Frame 0 is not simulated; its last
 /// substep ends at time 0, so its colliders are where they start.
 FrameInputs frame_inputs(const SimulationModel& model, std::uint32_t frame);
+/// Puts them in the place of others.
+void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameInputs& inputs);
 
 }  // namespace drape

@@ -101,11 +101,14 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     return std::nullopt;
 }
 
-FrameInputs joined_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members) {
-    FrameInputs joined;
+void join_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members, FrameInputs& joined) {
+    joined.wind.clear();
+    joined.colliders.clear();
+    joined.pins.resize(all.cloths.size());
+    auto pins = joined.pins.begin();
     for (const FrameInputs& one : members) {
         joined.wind.insert(joined.wind.end(), one.wind.begin(), one.wind.end());
-        joined.pins.insert(joined.pins.end(), one.pins.begin(), one.pins.end());
+        pins = std::ranges::copy(one.pins, pins).out;
     }
     const std::uint32_t sets = all.colliders_move ? all.scene.solver.substeps : 1;
     for (std::uint32_t set = 0; set < sets; ++set)
@@ -114,7 +117,6 @@ FrameInputs joined_inputs(const SimulationModel& all, const std::vector<FrameInp
             const auto first = one.colliders.begin() + set * count;
             joined.colliders.insert(joined.colliders.end(), first, first + count);
         }
-    return joined;
 }
 
 }  // namespace drape

@@ -26,6 +26,9 @@ class Watch {
     /// `model` must outlive this.
     explicit Watch(const SimulationModel& model);
 
+    /// Looks at what moves the cloths until a frame's end, by the model's paths as they are now. The others do it where
+    /// it was not done; frames come in order.
+    void extend(std::uint32_t frame);
     /// Returns the worst cloth's largest value over its bound; above 1 a closed loop does the frame again:
     ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; g t of
     ///             held cloth ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
@@ -98,7 +101,6 @@ class Watch {
         bool held;                   ///< pins hold it for good
     };
     void remember(const ClothStatistics& statistics);
-    void extend(std::uint32_t frame);
     Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;
     const Drive& drive_at(std::size_t cloth, std::uint32_t frame) const { return drives_[cloth][frame - first_]; }
     double drive_speed(std::size_t cloth, double from, double to) const;

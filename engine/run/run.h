@@ -57,6 +57,14 @@ struct RunRequest {
     std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish what is in flight and end
     std::function<void()> saving;  ///< told before a checkpoint is written
 
+    /// The run's frames are those of a member of an ensemble of the same scene on this device. No format draws, and there
+    /// are no checkpoints.
+    struct Shared {
+        Device device;
+        EnsembleMember member;
+    };
+    std::optional<Shared> shared;
+
     bool draws() const;    ///< some format needs pictures
     bool details() const;  ///< some format needs velocities and contacts
 };

@@ -45,6 +45,7 @@ SimulationOptions run_options(const RunRequest& request) {
     SimulationOptions options =
         simulation_options(request.scene, request.draws(), needs_positions(request), request.details());
     options.keep_promises = !request.keep_failed;
+    if (request.shared) options.member = request.shared->member;
     return options;
 }
 
@@ -416,12 +417,13 @@ RunSummary run_scene(const RunRequest& request) {
     check_formats(request, scene.description);
     if (!request.stream) folder.emplace(request.output, request.existing);
     if (folder) expect_room(*folder, request, scene.description, range);
-    const Device device = device_of(request.scene, scene.description, request.draws());
+    const Device device =
+        request.shared ? request.shared->device : device_of(request.scene, scene.description, request.draws());
     const std::string key = key_of(request, scene, device.info());
     const MissingFrames missing = missing_frames(folder, request, range, key);
     summary.kept_count = missing.kept.size();
     std::optional<Checkpoints> checkpoints;
-    if (folder) checkpoints.emplace(*folder, key, request.checkpoint_interval);
+    if (folder) checkpoints.emplace(*folder, key, request.shared ? std::nullopt : request.checkpoint_interval);
     const auto from = resumed_from(checkpoints, request, scene.description, range, missing, say);
     const std::uint64_t earlier_validation = from ? from->validation_count : 0;
     Manifest manifest;

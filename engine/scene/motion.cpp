@@ -60,6 +60,7 @@ Vec3 interpolate(const std::vector<MotionKey>& keys, std::size_t k, double time,
 }  // namespace
 
 std::array<double, 9> rotation_matrix(const Vec3& degrees) {
+    if (degrees == Vec3{0, 0, 0}) return RigidTransform().rotation;
     const auto [sx, cx] = sine_cosine(degrees[0]);
     const auto [sy, cy] = sine_cosine(degrees[1]);
     const auto [sz, cz] = sine_cosine(degrees[2]);

@@ -21,7 +21,7 @@ constexpr const char* member_part = "member";
 /// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false for what is of none.
 template <class Archive>
 bool transfer(Archive& archive, Member& member, MemberMotion& motion) {
-    archive(member.frame, member.pins_acted, member.colliders_acted);
+    archive(member.frame, member.pins_acted, member.colliders_acted, member.judged);
     bool failed = member.failure.has_value();
     archive(failed);
     if (failed) {
@@ -33,6 +33,7 @@ bool transfer(Archive& archive, Member& member, MemberMotion& motion) {
         member.failure.reset();
     }
     motion.transfer(archive);
+    for (ClothStatistics& statistics : member.statistics) transfer_statistics(archive, statistics);
     return member.watch->transfer(archive);
 }
 
@@ -73,7 +74,6 @@ struct Ensemble::Parts {
                 "method auto does frames again, with those before them, and cannot be given actions: name a method");
         const auto make_runs = obstacle ? run_apart : run_together;
         runs = make_runs(given.parts_->device, members, run_options());
-        for (const auto& member : members) member->judge();
     }
 
     MemberRunOptions run_options() const { return {options.normals, options.kernels}; }
@@ -105,25 +105,33 @@ std::size_t Ensemble::pass_count() const { return parts_->runs->pass_count(); }
 double Ensemble::device_milliseconds() const { return parts_->runs->device_milliseconds(); }
 std::uint32_t Ensemble::frame(std::size_t member) const { return parts_->members.at(member)->frame; }
 const std::optional<FrameFailure>& Ensemble::failure(std::size_t member) const {
-    return parts_->members.at(member)->failure;
+    parts_->members.at(member)->judge();
+    return parts_->members[member]->failure;
 }
 const std::vector<ClothStatistics>& Ensemble::statistics(std::size_t member) const {
     return parts_->members.at(member)->statistics;
 }
 
+const FrameEffort& Ensemble::effort(std::size_t member) const { return parts_->members.at(member)->effort; }
+
 void Ensemble::step(const EnsembleActions& actions) {
     Members& members = parts_->members;
     check_actions(actions, parts_->options.controls, members.front()->model, members.size());
     for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
-    parts_->runs->step();
-    for (const auto& member : members) member->judge();
+    // What moves a cloth until the frame's end is known before its statistics, those of the frame before are there.
+    parts_->runs->step([&] {
+        for (const auto& member : members) {
+            member->judge();
+            member->watch->extend(member->frame + 1);
+        }
+    });
+    for (const auto& member : members) member->judged = false;
 }
 
 void Ensemble::reset(std::span<const std::size_t> members) {
     parts_->check_numbers(members);
     for (const std::size_t number : members) parts_->members[number]->begin_anew();
     parts_->runs->reset(members);
-    for (const std::size_t number : members) parts_->members[number]->judge();
 }
 
 MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::position); }
@@ -135,6 +143,7 @@ MemberArray Ensemble::normals(std::size_t cloth) const {
 
 SimulationState Ensemble::save(std::size_t number) const {
     Member& member = *parts_->members.at(number);
+    member.judge();
     SimulationState state = parts_->runs->save(number);
     ByteWriter writer;
     MemberMotion motion(member.model);

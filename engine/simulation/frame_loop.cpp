@@ -38,6 +38,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
             self_contact_->last_crossed = 0;
     }
     build_graphs();
+    if (options_.next_elsewhere) return;
     allocate_and_record();
     solver_.upload(*pool_);
 }
@@ -327,8 +328,22 @@ void FrameLoop::tell_passed_over(std::uint32_t end) {
     }
 }
 
+bool FrameLoop::run_elsewhere(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+                              const Finished& finished, const std::function<bool()>& stop) {
+    for (; next_frame_ <= last; ++next_frame_) {
+        if (stop && stop()) return false;
+        const FinishedFrame frame = options_.next_elsewhere();
+        if (wanted(next_frame_))
+            finished(frame);
+        else if (options_.on_passed_over)
+            options_.on_passed_over(frame);
+    }
+    return true;
+}
+
 bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& hand_out,
                     const std::function<bool()>& stop) {
+    if (options_.next_elsewhere) return run_elsewhere(last, wanted, hand_out, stop);
     bool complete = true;
     const Finished finished = [&](const FinishedFrame& frame) {
         tell_passed_over(frame.frame);

@@ -48,6 +48,8 @@ struct FrameLoopOptions : PictureOptions {
     /// Each frame that is not wanted is told here, in order with those that are: its statistics and effort, nothing
     /// else.
     std::function<void(const FinishedFrame&)> on_passed_over;
+    /// Frames come from here, in order from 0 on, and nothing is simulated.
+    std::function<FinishedFrame()> next_elsewhere;
     std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
@@ -96,7 +98,10 @@ class FrameLoop {
 
     std::uint32_t next_frame() const { return next_frame_; }
     /// Returns whether every frame that was simulated was handed out, or will have been once `stop` has ended the loop.
-    bool can_save() const { return in_segment_ || (withheld_.empty() && (!control_ || next_frame_ >= simulated_)); }
+    bool can_save() const {
+        if (!pool_) return false;
+        return in_segment_ || (withheld_.empty() && (!control_ || next_frame_ >= simulated_));
+    }
     /// Returns what next_frame() starts from; call it only while can_save().
     SimulationState save() const;
     /// Takes over what another loop of the same model saved. Throws Error when it is not that.
@@ -177,6 +182,8 @@ class FrameLoop {
     void deliver_all(const Finished& finished);
     /// Tells of the frames before `end` that were simulated and not wanted.
     void tell_passed_over(std::uint32_t end);
+    bool run_elsewhere(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted, const Finished& finished,
+                       const std::function<bool()>& stop);
     /// Returns the slot that is next, free.
     std::uint32_t take_slot(const Finished& finished);
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);

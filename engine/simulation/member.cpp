@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include "scene/motion.h"
 #include "simulation/frame_checks.h"
@@ -99,15 +100,17 @@ void Member::begin_anew() {
     start.put_into(model);
     watch.emplace(model);
     frame = 0;
+    effort = {};
     failure.reset();
-    pins_acted = colliders_acted = false;
+    pins_acted = colliders_acted = judged = false;
 }
 
 void Member::judge() {
-    if (failure) return;
+    if (failure || std::exchange(judged, true)) return;
     FinishedFrame finished;
     finished.frame = frame;
     finished.statistics = statistics;
+    finished.effort = effort;
     failure = frame_failure(model, *watch, finished);
 }
 

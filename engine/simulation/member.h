@@ -46,12 +46,14 @@ struct Member {
     std::optional<Watch> watch;
     std::uint32_t frame = 0;
     std::optional<FrameFailure> failure;
+    bool judged = false;
     std::vector<ClothStatistics> statistics;
+    FrameEffort effort;
     bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
 
     /// Makes it what it was before frame 0.
     void begin_anew();
-    /// Looks at the statistics of the frame that it is at.
+    /// Looks at the statistics of the frame that it is at, once.
     void judge();
 };
 

@@ -1,6 +1,7 @@
 // How the frames of an ensemble's members are simulated: together, or each by a loop of its own.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,12 +19,13 @@ class MemberRuns {
   public:
     virtual ~MemberRuns() = default;
     /// Simulates the frame after the one that each member is at, by its model as it is now, and takes its statistics.
-    virtual void step() = 0;
+    /// `meanwhile` is called while the device works, where it can be.
+    virtual void step(const std::function<void()>& meanwhile) = 0;
     /// Takes members, which are as they begin again, to their starts, and their statistics there.
     virtual void reset(std::span<const std::size_t> members) = 0;
     /// Returns what the member's next frame depends on, beside its model.
     virtual SimulationState save(std::size_t member) const = 0;
-    /// Takes members, whose frame and model are those of the states, to them. Throws Error where one is not that,
+    /// Takes members, whose frame, statistics and model are those of the states, to them. Throws Error where one is not that,
     /// before any is changed on the device.
     virtual void restore(std::span<const std::size_t> members, std::span<const SimulationState> states) = 0;
     virtual MemberArray array(std::size_t cloth, MemberValue value) const = 0;

@@ -1,10 +1,11 @@
 // Members whose steps differ, or work on all cloths of a scene at once, have a frame loop each.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
 
 #include "base/byte_stream.h"
-#include "cloth/statistics_transfer.h"
 #include "picture/frame_copy.h"
 #include "simulation/frame_loop.h"
 #include "simulation/member_runs.h"
@@ -32,7 +33,8 @@ class MembersApart : public MemberRuns {
         }
     }
 
-    void step() override {
+    void step(const std::function<void()>& meanwhile) override {
+        meanwhile();
         for (std::size_t k = 0; k < members_.size(); ++k) simulate(k, ++members_[k]->frame);
     }
 
@@ -69,12 +71,13 @@ class MembersApart : public MemberRuns {
 
     MemberArray array(std::size_t cloth, MemberValue value) const override {
         const Grid& grid = members_.front()->model.cloths[cloth].grid;
-        gathered_.clear();
-        for (const Frame& frame : frames_) {
-            const std::vector<float>& own = frame[static_cast<std::size_t>(value)][cloth];
-            gathered_.insert(gathered_.end(), own.begin(), own.end());
-        }
-        return {gathered_.data(), members_.size(), grid.rows(), grid.columns(), std::size_t{4} * grid.particle_count()};
+        const std::size_t stride = std::size_t{4} * grid.particle_count();
+        std::vector<float>& gathered = gathered_[{cloth, value}];
+        gathered.resize(stride * members_.size());
+        for (std::size_t k = 0; k < members_.size(); ++k)
+            std::ranges::copy(frames_[k][static_cast<std::size_t>(value)][cloth],
+                              gathered.begin() + static_cast<std::ptrdiff_t>(k * stride));
+        return {gathered.data(), members_.size(), grid.rows(), grid.columns(), stride};
     }
     std::size_t pass_count() const override {
         std::size_t count = 0;
@@ -100,6 +103,7 @@ class MembersApart : public MemberRuns {
     }
     void keep(std::size_t number, const FinishedFrame& finished) {
         members_[number]->statistics = finished.statistics;
+        members_[number]->effort = finished.effort;
         const std::array all{&finished.positions, &finished.velocities, &finished.normals};
         for (std::size_t value = 0; value < all.size(); ++value) {
             frames_[number][value].clear();
@@ -111,7 +115,6 @@ class MembersApart : public MemberRuns {
     void transfer(Archive& archive, std::size_t number) {
         for (std::vector<std::vector<float>>& value : frames_[number])
             for (std::vector<float>& array : value) archive(array);
-        for (ClothStatistics& statistics : members_[number]->statistics) transfer_statistics(archive, statistics);
     }
 
     Members& members_;
@@ -120,7 +123,7 @@ class MembersApart : public MemberRuns {
     std::vector<SimulationState> starts_;
     std::vector<Frame> frames_;
     std::vector<bool> over_;  ///< a loop gave up, and stays where it was
-    mutable std::vector<float> gathered_;
+    mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };
 
 }  // namespace

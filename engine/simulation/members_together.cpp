@@ -1,7 +1,12 @@
 // Members of one shape are one model to the solver: a step of all is one graph, whose dispatches they share.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "cloth/members.h"
 #include "simulation/member_runs.h"
@@ -43,6 +48,7 @@ class MembersTogether : public MemberRuns {
             planned->recorded = std::make_unique<graph::RecordedPlan>(planned->graph, planned->plan, *pool_,
                                                                       graph::TimestampMode::stages);
         solver_.upload(*pool_);
+        solver_.write_constants(*pool_, slot, all_.scene.solver.substeps);
         positions_ = solver_.readback(*pool_, slot, "position");
         moved_ = solver_.readback(*pool_, slot, "displacement");
         excess_ = solver_.readback(*pool_, slot, "excess displacement");
@@ -50,11 +56,12 @@ class MembersTogether : public MemberRuns {
         records_ = solver_.statistics_records(*pool_, slot);
         look();
         for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
+        for (const auto& member : members_) start_statistics_.push_back(member->statistics);
     }
 
-    void step() override {
+    void step(const std::function<void()>& meanwhile) override {
+        submit(step_, 1, meanwhile);
         for (const auto& member : members_) ++member->frame;
-        submit(step_);
         for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
     }
 
@@ -62,7 +69,8 @@ class MembersTogether : public MemberRuns {
         std::map<std::size_t, const ClothBytes*> states;
         for (const std::size_t number : numbers)
             for (std::size_t k = 0; k < cloths_each_; ++k) states[number * cloths_each_ + k] = nullptr;
-        put(states, numbers);
+        put(states);
+        for (const std::size_t number : numbers) members_[number]->statistics = start_statistics_[number];
     }
 
     SimulationState save(std::size_t number) const override {
@@ -86,12 +94,13 @@ class MembersTogether : public MemberRuns {
                     if (name.starts_with(prefix)) own[name.substr(prefix.size())] = bytes;
                 states[numbers[i] * cloths_each_ + k] = &own;
             }
-        put(states, numbers);
+        put(states);
     }
 
     MemberArray array(std::size_t cloth, MemberValue value) const override {
-        if (value == MemberValue::velocity) return velocities(cloth);
-        return array_of(value == MemberValue::position ? positions_ : normals_, cloth, gathered_);
+        std::vector<float>& gathered = gathered_[{cloth, value}];
+        if (value == MemberValue::velocity) return velocities(cloth, gathered);
+        return array_of(value == MemberValue::position ? positions_ : normals_, cloth, gathered);
     }
     std::size_t pass_count() const override { return step_.plan.passes.size(); }
     double device_milliseconds() const override { return milliseconds_; }
@@ -118,33 +127,44 @@ class MembersTogether : public MemberRuns {
         return {{{&look_.graph, &look_.plan}, {&step_.graph, &step_.plan}}};
     }
 
-    /// Runs it with every member's inputs of the frame that it is at.
-    void submit(Planned& planned) {
-        std::vector<FrameInputs> inputs;
-        inputs.reserve(members_.size());
-        for (const auto& member : members_) inputs.push_back(frame_inputs(member->model, member->frame));
-        solver_.write_inputs(*pool_, slot, joined_inputs(all_, inputs), all_.scene.solver.substeps);
+    /// Runs it with every member's inputs of a frame `further` than the one that it is at.
+    void submit(Planned& planned, std::uint32_t further, const std::function<void()>& meanwhile = {}) {
+        inputs_.resize(members_.size());
+        for (std::size_t k = 0; k < members_.size(); ++k)
+            take_frame_inputs(members_[k]->model, members_[k]->frame + further, inputs_[k]);
+        join_inputs(all_, inputs_, joined_);
+        solver_.write_inputs(*pool_, slot, joined_, all_.scene.solver.substeps);
         slots_.submit(slot, planned.recorded->commands(slot));
+        if (meanwhile) meanwhile();
         slots_.wait(slot);
         milliseconds_ = 0;
         for (const graph::Timing& timing : planned.recorded->timings(slot)) milliseconds_ += timing.milliseconds;
     }
     /// Hands out what there is.
-    void look() { submit(look_); }
+    void look() { submit(look_, 0); }
 
-    void put(const std::map<std::size_t, const ClothBytes*>& states, std::span<const std::size_t> numbers) {
+    void put(const std::map<std::size_t, const ClothBytes*>& states) {
         try {
             solver_.upload_cloths(*pool_, states);
         } catch (const std::invalid_argument& wrong) {
             throw Error(wrong.what());
         }
-        look();
-        for (const std::size_t number : numbers) take_statistics(number);
+        if (options_.normals) return look();
+        // The arrays on the host are as a look would leave them, which is as long as a pass over all members.
+        for (const auto& [cloth, state] : states)
+            for (const auto& [field, views] : {std::pair{Field::position, &positions_},
+                                               std::pair{Field::displacement, &moved_},
+                                               std::pair{Field::end_excess, &excess_}}) {
+                const std::vector<std::byte> bytes =
+                    state ? field_of(*state, field) : solver_.start_of_field(cloth, field);
+                std::memcpy(const_cast<float*>((*views)[cloth].data()), bytes.data(), bytes.size());
+            }
     }
 
     void take_statistics(std::size_t number) {
         Member& member = *members_[number];
         member.statistics.clear();
+        member.effort.substeps = member.frame == 0 ? 0 : all_.scene.solver.substeps;
         for (std::size_t k = 0; k < cloths_each_; ++k) {
             glsl::StatisticsRecord record;
             std::memcpy(&record, records_[number * cloths_each_ + k].data(), sizeof record);
@@ -164,24 +184,23 @@ class MembersTogether : public MemberRuns {
         array.data = of(0).data();
         if (even && array.members > 1) array.member_stride = static_cast<std::size_t>(stride);
         if (even) return array;
-        gathered.clear();
-        for (std::size_t k = 0; k < array.members; ++k) gathered.insert(gathered.end(), of(k).begin(), of(k).end());
+        gathered.resize(array.member_stride * array.members);
+        for (std::size_t k = 0; k < array.members; ++k)
+            std::ranges::copy(of(k), gathered.begin() + static_cast<std::ptrdiff_t>(k * array.member_stride));
         array.data = gathered.data();
         return array;
     }
 
-    MemberArray velocities(std::size_t cloth) const {
+    MemberArray velocities(std::size_t cloth, std::vector<float>& gathered) const {
         const double per_second = all_.scene.time.fps * all_.scene.solver.substeps;
         const Grid& grid = all_.cloths[cloth].grid;
         const std::size_t stride = std::size_t{4} * grid.particle_count();
-        velocities_.resize(std::max(velocities_.size(), cloth + 1));
-        velocities_[cloth].resize(stride * members_.size());
+        gathered.resize(stride * members_.size());
         for (std::size_t k = 0; k < members_.size(); ++k) {
             const std::size_t at = k * cloths_each_ + cloth;
-            write_velocities(moved_[at], excess_[at], per_second,
-                             std::span(velocities_[cloth]).subspan(k * stride, stride));
+            write_velocities(moved_[at], excess_[at], per_second, std::span(gathered).subspan(k * stride, stride));
         }
-        return {velocities_[cloth].data(), members_.size(), grid.rows(), grid.columns(), stride};
+        return {gathered.data(), members_.size(), grid.rows(), grid.columns(), stride};
     }
 
     Members& members_;
@@ -196,8 +215,10 @@ class MembersTogether : public MemberRuns {
     // What the slot's last frame left on the host, cloth by cloth, member by member.
     Views positions_, moved_, excess_, normals_;
     std::vector<std::span<const std::byte>> records_;
-    mutable std::vector<float> gathered_;
-    mutable std::vector<std::vector<float>> velocities_;  ///< by cloth
+    std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
+    std::vector<FrameInputs> inputs_;  ///< by member
+    FrameInputs joined_;
+    mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };
 
 }  // namespace

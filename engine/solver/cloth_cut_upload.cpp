@@ -79,10 +79,11 @@ void ClothSolver::for_state_images(const graph::ResourcePool& pool, const Visit&
             for (const Together& together : together_)
                 if (const std::string name = resource_name(together.state, row, set); pool.has(name))
                     visit(pool.image(name), row, set, std::span(together.cloths));
-            for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-                if (const std::string name = resource_name(model_.cloths[cloth], row, set);
-                    is_alone(cloth) && pool.has(name))
+            for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+                if (!is_alone(cloth)) continue;
+                if (const std::string name = resource_name(model_.cloths[cloth], row, set); pool.has(name))
                     visit(pool.image(name), row, set, std::span(&cloth, 1));
+            }
         }
 }
 
@@ -134,6 +135,11 @@ void ClothSolver::upload_state(const graph::ResourcePool& pool,
             vulkan::upload_range(pool.device(), pool.buffer(name), 0, borne->second);  // lists have more room
 }
 
+std::vector<std::byte> field_of(const ClothBytes& state, Field field) {
+    const auto found = state.find(std::string(row_of(field).name));
+    return found == state.end() ? std::vector<std::byte>() : found->second;
+}
+
 std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& pool,
                                                      std::span<const std::size_t> wanted) const {
     std::vector<ClothBytes> states(wanted.size());
@@ -156,33 +162,30 @@ std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& 
 
 void ClothSolver::upload_cloths(const graph::ResourcePool& pool,
                                 const std::map<std::size_t, const ClothBytes*>& states) const {
-    struct Upload {
-        const vulkan::Image* image;
-        std::vector<vulkan::RowsOfImage> parts;
-    };
-    std::vector<Upload> uploads;
+    std::vector<vulkan::RowsOfImage> uploads;
     for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
                                std::span<const std::size_t> cloths) {
         if (set != StateSet::run) return;
         const auto height = static_cast<std::uint32_t>(image.description().height / cloths.size());
         const std::size_t size = std::size_t{image.description().width} * height * row.element.size;
-        Upload& upload = uploads.emplace_back(Upload{&image, {}});
         for (const std::size_t cloth : cloths) {
             const auto state = states.find(cloth);
             if (state == states.end()) continue;
-            std::vector<std::byte> bytes;
-            if (!state->second) {
-                bytes = row.start ? row.start(context(cloth)) : std::vector<std::byte>(size);
-            } else if (const auto saved = state->second->find(std::string(row.name)); saved != state->second->end()) {
-                bytes = saved->second;
-            }
+            std::vector<std::byte> bytes =
+                state->second ? field_of(*state->second, row.field) : start_of_field(cloth, row.field);
+            if (!state->second && bytes.empty()) bytes.resize(size);  // it starts zeroed
             if (bytes.size() != size)
                 throw std::invalid_argument("the saved state is not of this scene: field '" + std::string(row.name) +
                                             "'");
-            upload.parts.push_back({place_of_[cloth] * height, std::move(bytes)});
+            uploads.push_back({&image, place_of_[cloth] * height, std::move(bytes)});
         }
     });
-    for (const Upload& upload : uploads) vulkan::upload_rows(pool.device(), *upload.image, upload.parts);
+    vulkan::upload_rows(pool.device(), uploads);
+}
+
+std::vector<std::byte> ClothSolver::start_of_field(std::size_t cloth, Field field) const {
+    const FieldRow& row = row_of(field);
+    return row.start ? row.start(context(cloth)) : std::vector<std::byte>();
 }
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,

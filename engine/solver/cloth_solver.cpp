@@ -409,6 +409,7 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                                const SimulationModel& run) const {
     write_inputs(pool, slot, frame_inputs(run, frame), run.scene.solver.substeps);
+    write_constants(pool, slot, run.scene.solver.substeps);
 }
 
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
@@ -416,7 +417,7 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-        if (!inputs.pins[cloth].empty())
+        if (is_alone(cloth) && !inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),
                          inputs.pins[cloth]);
     write_together(pool, slot, inputs, substeps);

@@ -23,6 +23,8 @@ struct CutImages {
 
 /// The state of a cloth, by field.
 using ClothBytes = std::map<std::string, std::vector<std::byte>>;
+/// Returns one of them; nothing where it is not there.
+std::vector<std::byte> field_of(const ClothBytes& state, Field field);
 
 /// Returns whether a cut leaves so much to draw that it needs other buffers.
 bool draws_outgrown(const CutImages& before, const CutTopology& topology);
@@ -85,6 +87,8 @@ class ClothSolver {
     /// Uploads the state of some cloths and leaves the others as they are; null: as the cloth starts. Throws
     /// std::invalid_argument where one is not of such a cloth, before anything is uploaded.
     void upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states) const;
+    /// Returns what a field of a cloth starts with; nothing: with zeros.
+    std::vector<std::byte> start_of_field(std::size_t cloth, Field field) const;
     /// Uploads the parts of a cut cloth's fields that differ from `before`.
     void upload_cut(const graph::ResourcePool& pool, std::size_t cloth, const CutImages& before) const;
     /// Copies the host's side of a cloth's fields, for `upload_cut` to compare with.
@@ -97,8 +101,11 @@ class ClothSolver {
     }
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                       const SimulationModel& run) const;
+    /// Writes these, but for the constants of cloths together.
     void write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
                       std::uint32_t substeps) const;
+    /// Writes the constants that each of the cloths together has its own of, which frames leave as they are.
+    void write_constants(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t substeps) const;
 
     /// Writes how an attempt changes the length of each cloth's substeps.
     void write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
@@ -150,7 +157,7 @@ class ClothSolver {
     void upload_together(const graph::ResourcePool& pool) const;
     /// Returns what a field of cloths together starts with, cloth by cloth.
     std::vector<std::byte> start_of(const Together& together, const FieldRow& row) const;
-    /// Writes the pins of cloths together, and the constants that each of them has its own of.
+    /// Writes the pins of cloths together.
     void write_together(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
                         std::uint32_t substeps) const;
     ClothState state_of(std::size_t index) const;

@@ -157,6 +157,8 @@ void ClothSolver::write_changes(const graph::ResourcePool& pool, std::uint32_t s
 void ClothSolver::write_together(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
                                  std::uint32_t substeps) const {
     for (const Together& together : together_) {
+        const std::string name = resource_name(together.state, row_of(Field::pin_motions));
+        if (!pool.has(name)) continue;
         std::vector<glsl::PinMotion> all;  // of each substep, cloth by cloth
         for (std::size_t substep = 0; substep < substeps; ++substep)
             for (const std::size_t cloth : together.cloths) {
@@ -165,13 +167,15 @@ void ClothSolver::write_together(const graph::ResourcePool& pool, std::uint32_t 
                 const auto first = own.begin() + static_cast<std::ptrdiff_t>(substep) * count;
                 all.insert(all.end(), first, first + count);
             }
-        const std::string name = resource_name(together.state, row_of(Field::pin_motions));
-        if (pool.has(name))
-            std::memcpy(pool.buffer(name, slot).mapped().data(), all.data(), all.size() * sizeof(glsl::PinMotion));
+        std::memcpy(pool.buffer(name, slot).mapped().data(), all.data(), all.size() * sizeof(glsl::PinMotion));
+    }
+}
+
+void ClothSolver::write_constants(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t substeps) const {
+    for (const Together& together : together_)
         for (const auto& [constants, bytes] : *together.constants.at(substeps))
             if (pool.has(constants))
                 std::memcpy(pool.buffer(constants, slot).mapped().data(), bytes.data(), bytes.size());
-    }
 }
 
 }  // namespace drape

@@ -187,6 +187,7 @@ const ComputePipeline& Device::compute_pipeline(const std::string& module,
     std::string key = module;
     for (const SpecializationConstant& constant : constants)
         key += fmt::format(" {}={}", constant.name, constant.value);
+    const std::scoped_lock lock(pipelines_mutex_);
     std::unique_ptr<ComputePipeline>& pipeline = pipelines_[key];
     if (!pipeline) pipeline = std::make_unique<ComputePipeline>(*this, key, Shader{module}, constants);
     return *pipeline;

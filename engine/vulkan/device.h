@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -125,6 +126,7 @@ class Device {
     std::uint64_t max_allocation_size_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     mutable MemoryBudget budget_{0};
+    mutable std::mutex pipelines_mutex_;
     mutable std::map<std::string, std::unique_ptr<ComputePipeline>> pipelines_;  ///< by module and constants
 };
 

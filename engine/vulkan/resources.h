@@ -130,10 +130,12 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes);
 /// Bytes of whole rows of an image.
 struct RowsOfImage {
+    const Image* image;
     std::uint32_t first_row;
     std::vector<std::byte> bytes;
 };
-void upload_rows(const Device& device, const Image& image, std::span<const RowsOfImage> parts);
+/// Uploads all of them at once.
+void upload_rows(const Device& device, std::span<const RowsOfImage> parts);
 /// Uploads bytes of a buffer from `offset` on; the rest stays.
 void upload_range(const Device& device, const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes);
 void download(const Device& device, const Image& image, std::span<std::byte> bytes);

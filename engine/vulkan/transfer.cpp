@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <map>
 
 #include "vulkan/api.h"
 #include "vulkan/resources.h"
@@ -112,34 +113,36 @@ void upload(const Device& device, const Buffer& buffer, std::span<const std::byt
 }
 
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes) {
-    const RowsOfImage part{first_row, {bytes.begin(), bytes.end()}};
-    upload_rows(device, image, std::span(&part, 1));
+    const RowsOfImage part{&image, first_row, {bytes.begin(), bytes.end()}};
+    upload_rows(device, std::span(&part, 1));
 }
 
-void upload_rows(const Device& device, const Image& image, std::span<const RowsOfImage> parts) {
-    const ImageDescription& description = image.description();
-    const std::uint64_t row = std::uint64_t{description.width} * texel_size(description.format);
-    std::vector<VkBufferImageCopy> regions;
+void upload_rows(const Device& device, std::span<const RowsOfImage> parts) {
+    std::map<const Image*, std::vector<VkBufferImageCopy>> regions;
     std::vector<std::byte> all;
     for (const RowsOfImage& part : parts) {
+        const ImageDescription& description = part.image->description();
+        const std::uint64_t row = std::uint64_t{description.width} * texel_size(description.format);
         const std::uint64_t count = part.bytes.size() / row;
         if (part.bytes.size() % row != 0 || part.first_row + count > description.height)
             throw VulkanError(fmt::format("image {} has no {} bytes from row {} on", description.name,
                                           part.bytes.size(), part.first_row));
         if (count == 0) continue;
-        VkBufferImageCopy& region = regions.emplace_back(whole(image));
+        VkBufferImageCopy& region = regions[part.image].emplace_back(whole(*part.image));
         region.bufferOffset = all.size();
         region.imageOffset.y = static_cast<std::int32_t>(part.first_row);
         region.imageExtent.height = static_cast<std::uint32_t>(count);
         all.insert(all.end(), part.bytes.begin(), part.bytes.end());
+        all.resize((all.size() + 15) / 16 * 16);  // a region begins at a texel
     }
     if (regions.empty()) return;
-    const Buffer source = staging(device, description.name, all.size(), BufferHome::upload);
+    const Buffer source = staging(device, parts.front().image->description().name, all.size(), BufferHome::upload);
     std::memcpy(source.mapped().data(), all.data(), all.size());
     device.run_once([&](VkCommandBuffer commands) {
         full_barrier(commands);
-        vkCmdCopyBufferToImage(commands, source.handle(), image.handle(), VK_IMAGE_LAYOUT_GENERAL,
-                               static_cast<std::uint32_t>(regions.size()), regions.data());
+        for (const auto& [image, copies] : regions)
+            vkCmdCopyBufferToImage(commands, source.handle(), image->handle(), VK_IMAGE_LAYOUT_GENERAL,
+                                   static_cast<std::uint32_t>(copies.size()), copies.data());
         full_barrier(commands);
     });
 }

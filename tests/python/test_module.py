@@ -233,6 +233,101 @@ class Frames(Validated):
         self.assertGreater(during, 2)  # with the GIL held there would be at most one
 
 
+class Ensembles(Validated):
+    def ensemble(self, scene, members, **options):
+        self.simulations.append(drape.Ensemble(scene, members, validate=True, **options))
+        return self.simulations[-1]
+
+    def test_every_member_is_its_scene_alone(self):
+        density = "/cloths/0/areal_density"
+        members = [{density: 0.1}, {}, {density: 0.3, "/gravity": [1, -9, 0]}]
+        together = self.ensemble(sheet(), members, normals=True)
+        self.assertEqual(len(together), 3)
+        self.assertIsNone(together.obstacle)
+        alone = [self.simulate(drape.parse(sheet(), member), normals=True) for member in members]
+        for frame in range(6):
+            if frame:
+                together.step()
+            for number, each in enumerate(alone):
+                each.step()
+                for name in ("positions", "velocities", "normals"):
+                    np.testing.assert_array_equal(getattr(together, name)("cloth")[number], getattr(each, name)())
+                mine, other = together.statistics(number), each.statistics
+                self.assertEqual({key: mine[key] for key in mine}, {key: other[key] for key in mine})
+        np.testing.assert_array_equal(together.frames, [5, 5, 5])
+        self.assertEqual(together.failures, {})
+        np.testing.assert_array_equal(together.picture(2)[..., :3].shape, (48, 64, 3))
+
+    def test_arrays_are_views_that_keep_the_ensemble(self):
+        together = drape.Ensemble(sheet(), 4)
+        before = together.positions()
+        self.assertEqual(before.shape, (4, 7, 9, 3))
+        self.assertFalse(before.flags.writeable)
+        start = before.copy()
+        together.step()
+        self.assertGreater(np.abs(before - start).max(), 0)
+        kept = before.copy()
+        del together
+        gc.collect()
+        np.testing.assert_array_equal(before, kept)
+
+    def test_actions_move_what_they_say(self):
+        scene = sheet(wind={"velocity": [0, 0, 1]}, colliders={"spheres": [{"center": [0, -1, 0], "radius": 0.1}]})
+        together = self.ensemble(scene, 3, controls=["pins", "wind", "colliders"])
+        pins = np.zeros((3, 2, 3))
+        pins[1, 0] = [0.01, 0.02, 0.03]
+        wind = np.zeros((3, 3))
+        wind[2] = [0, 0, 6]
+        start = together.positions().copy()
+        together.step(pins=pins, wind=wind, colliders=np.zeros((3, 1, 6)))
+        moved = together.positions() - start
+        np.testing.assert_allclose(moved[1, 0, 0], [0.01, 0.02, 0.03], atol=1e-6)
+        np.testing.assert_array_equal(moved[0, 0, 0], 0)
+        for _ in range(5):
+            together.step(wind=wind)
+        np.testing.assert_allclose(together.positions()[1, 0, 0] - start[1, 0, 0], [0.01, 0.02, 0.03], atol=1e-6)
+        self.assertGreater(together.positions()[2, -1, :, 2].mean(), together.positions()[0, -1, :, 2].mean())
+
+    def test_members_go_back_and_on_by_themselves(self):
+        together = self.ensemble(sheet(), 3)
+        frames = [together.positions()[0].copy()]
+        for _ in range(5):
+            together.step()
+            frames.append(together.positions()[0].copy())
+        together.reset([0, 2])
+        together.step()
+        saved = together.save(2)
+        np.testing.assert_array_equal(together.frames, [1, 6, 1])
+        np.testing.assert_array_equal(together.positions()[2], frames[1])
+        together.step()
+        together.restore([1], [saved])
+        together.step()
+        np.testing.assert_array_equal(together.frames, [3, 2, 3])
+        np.testing.assert_array_equal(together.positions()[1], frames[2])
+        with self.assertRaises(drape.Error):
+            together.restore([0], [{"member": b"nonsense"}])
+
+    def test_what_cannot_be_is_refused(self):
+        with self.assertRaisesRegex(drape.Error, "member 1 .* /cloths/0/grid is 8 x 7, not 9 x 7"):
+            drape.Ensemble(sheet(), [{}, {"/cloths/0/grid": [8, 7]}])
+        with self.assertRaisesRegex(drape.Error, "name a method"):
+            drape.Ensemble(sheet(solver={"method": "auto"}), 2, controls=["pins"])
+        with self.assertRaisesRegex(ValueError, "controls are"):
+            drape.Ensemble(sheet(), 2, controls=["gravity"])
+        together = self.ensemble(sheet(), 2, controls=["pins"])
+        pins = np.zeros((2, 2, 3))
+        pins[1, 1, 2] = np.inf
+        with self.assertRaisesRegex(drape.ActionError, "member 1: pins: number 8 is inf") as caught:
+            together.step(pins=pins)
+        self.assertEqual(caught.exception.member, 1)
+        self.assertIsInstance(caught.exception, drape.Error)
+        np.testing.assert_array_equal(together.frames, [0, 0])
+        with self.assertRaisesRegex(ValueError, r"pins: expected an array \[2, 2, 3 or 6\]"):
+            together.step(pins=np.zeros((2, 1, 3)))
+        with self.assertRaises(IndexError):
+            together.save(2)
+
+
 class Examples(unittest.TestCase):
     def run_example(self, *words):
         with tempfile.TemporaryDirectory() as folder:

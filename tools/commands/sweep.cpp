@@ -1,5 +1,6 @@
 // `drape sweep` makes many runs of a scene, each with values of its own.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include "output/output_error.h"
 #include "program.h"
 #include "streams.h"
+#include "sweep/groups.h"
 #include "sweep/local_runs.h"
 
 namespace drape::cli {
@@ -69,43 +71,108 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     return request;
 }
 
-/// Makes one run here; returns nothing when it was stopped.
-std::optional<ExitCode> run_one(const SweepOptions& options, const sweep::SweepSpec& spec,
-                                const sweep::SweepFolder& folder, std::uint32_t index) {
-    const auto begun = std::chrono::steady_clock::now();
-    sweep::JobRecord record;
-    record.index = index;
-    try {
-        if (!run_scene(request_of(options, spec, folder, index)).complete) return std::nullopt;
-    } catch (...) {
-        const Failure failure = current_failure();
-        // A full disk says nothing about the run: without a record --resume runs it again.
-        if (failure.code == ExitCode::io) throw;
-        record.exit_code = static_cast<int>(failure.code);
-        record.message = failure.text;
-        print_error(fmt::format("run {}: {}", index, failure.text));
-    }
-    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    folder.write(record, options.dataset);
-    return static_cast<ExitCode>(record.exit_code);
-}
+/// Makes runs here and writes their records.
+class RunsHere {
+  public:
+    RunsHere(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder)
+        : options_(options), spec_(spec), folder_(folder) {}
 
-/// Makes the runs of --index, one after the other.
+    /// Makes those of a list that go on together. Returns false where some were stopped.
+    bool make(const std::vector<sweep::GroupedRun>& group) {
+        begun_ = std::chrono::steady_clock::now();
+        if (group.size() == 1) {
+            end(run_alone(group.front()));
+        } else {
+            sweep::run_group(group, [&](const sweep::GroupedEnd& run) { end(run); });
+        }
+        if (unwritten_) std::rethrow_exception(unwritten_);
+        return stopped_.empty();
+    }
+    ExitCode worst() const { return worst_; }
+    std::string stopped() const { return stopped_; }
+
+    /// Returns the runs of --index that have no record, as lists.
+    std::vector<std::vector<sweep::GroupedRun>> lists() {
+        std::vector<sweep::GroupedRun> runs;
+        for (const std::uint32_t index : parse_indices(options_.indices, spec_.count)) {
+            if (const auto there = options_.resume ? folder_.record(index) : std::nullopt)
+                note(static_cast<ExitCode>(there->exit_code));
+            else
+                runs.push_back({index, request_of(options_, spec_, folder_, index)});
+        }
+        if (runs.size() > 1)
+            for (sweep::GroupedRun& run : runs)
+                run.request.message = [index = run.index](const std::string& text) {
+                    print_message(fmt::format("run {}: {}", index, text));
+                };
+        return sweep::groups_of(std::move(runs));
+    }
+
+  private:
+    static sweep::GroupedEnd run_alone(const sweep::GroupedRun& run) {
+        try {
+            return {run.index, run_scene(run.request).complete, nullptr};
+        } catch (...) {
+            return {run.index, false, std::current_exception()};
+        }
+    }
+    void note(ExitCode code) {
+        if (code != ExitCode::ok) worst_ = code;
+    }
+    void end(const sweep::GroupedEnd& run) {
+        sweep::JobRecord record;
+        record.index = run.index;
+        if (run.failure) {
+            const Failure failure = failure_of(run.failure);
+            // A full disk says nothing about the run: without a record --resume runs it again.
+            if (failure.code == ExitCode::io) {
+                if (!unwritten_) unwritten_ = run.failure;
+                return;
+            }
+            record.exit_code = static_cast<int>(failure.code);
+            record.message = failure.text;
+            print_error(fmt::format("run {}: {}", run.index, failure.text));
+        } else if (!run.complete) {
+            if (stopped_.empty()) stopped_ = fmt::format("run {} left no record", run.index);
+            return;
+        }
+        record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+        try {
+            folder_.write(record, options_.dataset);
+        } catch (const OutputError&) {
+            unwritten_ = std::current_exception();
+        }
+        note(static_cast<ExitCode>(record.exit_code));
+    }
+    static Failure failure_of(const std::exception_ptr& error) {
+        try {
+            std::rethrow_exception(error);
+        } catch (...) {
+            return current_failure();
+        }
+    }
+
+    const SweepOptions& options_;
+    const sweep::SweepSpec& spec_;
+    const sweep::SweepFolder& folder_;
+    std::chrono::steady_clock::time_point begun_;
+    ExitCode worst_ = ExitCode::ok;
+    std::string stopped_;             ///< the first run that was
+    std::exception_ptr unwritten_;    ///< the first file that could not be written
+};
+
+/// Makes the runs of --index, those of one shape together.
 ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
-    ExitCode worst = ExitCode::ok;
-    for (const std::uint32_t index : parse_indices(options.indices, spec.count)) {
-        const auto there = options.resume ? folder.record(index) : std::nullopt;
-        const auto code = there ? static_cast<ExitCode>(there->exit_code) : run_one(options, spec, folder, index);
-        if (!code) return report_stop(fmt::format("run {} left no record", index));
-        if (*code != ExitCode::ok) worst = *code;
-    }
+    RunsHere runs(options, spec, folder);
+    for (const std::vector<sweep::GroupedRun>& group : runs.lists())
+        if (!runs.make(group)) return report_stop(runs.stopped());
     if (options.dataset) folder.describe_dataset();
-    return worst;
+    return runs.worst();
 }
 
-std::vector<std::string> command_of(const SweepOptions& options, std::uint32_t index) {
+std::vector<std::string> command_of(const SweepOptions& options, const std::vector<std::uint32_t>& indices) {
     std::vector<std::string> command{
-        "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", index)};
+        "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", fmt::join(indices, ","))};
     if (!options.device.empty()) command.insert(command.end(), {"--device", options.device});
     if (options.dataset) command.emplace_back("--dataset");
     command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
@@ -119,14 +186,35 @@ ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder)
     return tally.complete() ? ExitCode::ok : ExitCode::sweep;
 }
 
+/// Returns how many runs a process makes, where they go on together. On a CPU more than some gain nothing, and their files
+/// come late; a GPU has room for many, and a process for each core keeps it fed.
+std::size_t group_size(const SweepOptions& options, std::size_t runs, std::size_t processes) {
+    const bool on_cpu = Device(options.device).info().type == "cpu";
+    const std::size_t most = on_cpu ? 16 : sweep::most_grouped;
+    return std::clamp<std::size_t>((runs + processes - 1) / processes, 1, most);
+}
+
+std::vector<std::vector<std::uint32_t>> shares_of(const std::vector<std::uint32_t>& indices, std::size_t size) {
+    std::vector<std::vector<std::uint32_t>> shares;
+    for (const std::uint32_t index : indices) {
+        if (shares.empty() || shares.back().size() == size) shares.emplace_back();
+        shares.back().push_back(index);
+    }
+    return shares;
+}
+
 ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
     sweep::LocalRuns runs;
-    for (std::uint32_t index = 0; index < spec.count; ++index)
-        if (!folder.record(index)) runs.indices.push_back(index);
     runs.processes = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::uint32_t> missing;
+    for (std::uint32_t index = 0; index < spec.count; ++index)
+        if (!folder.record(index)) missing.push_back(index);
+    runs.groups = shares_of(missing, sweep::can_be_grouped(request_of(options, spec, folder, 0))
+                                         ? group_size(options, missing.size(), runs.processes)
+                                         : 1);
     // Where every core has a run, a driver's own threads would only be in the way.
     if (runs.processes > 1) setenv("LP_NUM_THREADS", "0", 0);
-    runs.command = [&](std::uint32_t index) { return command_of(options, index); };
+    runs.command = [&](const std::vector<std::uint32_t>& indices) { return command_of(options, indices); };
     runs.stop = stop_requested;
     runs.quiet = options.quiet;
     runs.dataset = options.dataset;

@@ -5,23 +5,15 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "drape/simulation.h"
+#include "drape/ensemble.h"
+#include "module.h"
 #include "output/frame_writer.h"
 #include "run/failure.h"
 #include "run/run_statistics.h"
 
-namespace py = pybind11;
-
 namespace drape::python {
 
 namespace {
-
-/// A scene, and its JSON with every default.
-struct Scene {
-    SceneDescription description;
-    std::string json;
-    std::vector<std::string> warnings;
-};
 
 /// Returns {"/solver/substeps": 40} as `--set` has it.
 std::vector<std::string> override_texts(const py::dict& overrides) {
@@ -53,11 +45,60 @@ Scene load(const py::object& path, const py::dict& overrides) {
     return scene_of(read_scene(py::cast<std::string>(py::module_::import("os").attr("fspath")(path)), texts), texts);
 }
 
-/// Takes a Scene as it is, parses a dict, and loads a path.
+}  // namespace
+
 Scene any_scene(const py::object& source) {
     if (py::isinstance<Scene>(source)) return py::cast<Scene>(source);
     return py::isinstance<py::dict>(source) ? parse(source, {}) : load(source, {});
 }
+
+Scene changed(const Scene& scene, const py::dict& overrides) {
+    const std::vector<std::string> texts = override_texts(overrides);
+    SceneResult result = read_scene_text(scene.json, "scene", texts);
+    result.text = scene.json;
+    return scene_of(std::move(result), texts);
+}
+
+PictureView picture_view(const std::string& name, std::optional<double> range) {
+    for (const auto& [spelt, kind] : view_spellings)
+        if (spelt == name) {
+            const PictureView view{kind, range.value_or(0)};
+            if (range && !(view.range > 0 && view.shows_strain()))
+                throw py::value_error("view_range is a strain above 0, for the views stretch, warp and weft");
+            return view;
+        }
+    throw py::value_error("view is none of shaded, stretch, warp, weft, wire, normals: '" + name + "'");
+}
+
+std::size_t cloth_number(const SceneDescription& scene, const py::object& which) {
+    const std::vector<Cloth>& cloths = scene.cloths;
+    if (py::isinstance<py::str>(which)) {
+        const auto found = std::ranges::find(cloths, py::cast<std::string>(which), &Cloth::name);
+        if (found == cloths.end()) throw py::key_error(py::cast<std::string>(which));
+        return static_cast<std::size_t>(found - cloths.begin());
+    }
+    const auto number = py::cast<std::size_t>(which);
+    if (number >= cloths.size()) throw py::index_error("no such cloth");
+    return number;
+}
+
+py::dict state_dict(const SimulationState& state) {
+    py::dict parts;
+    for (const auto& [name, bytes] : state)
+        parts[py::str(name)] = py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return parts;
+}
+
+SimulationState state_of(const py::dict& parts) {
+    SimulationState state;
+    for (const auto& [name, text] : py::cast<std::map<std::string, std::string>>(parts)) {
+        const auto bytes = std::as_bytes(std::span(text));
+        state[name].assign(bytes.begin(), bytes.end());
+    }
+    return state;
+}
+
+namespace {
 
 struct Options {
     std::string device;
@@ -67,17 +108,6 @@ struct Options {
     std::optional<std::array<std::uint32_t, 2>> size;
 };
 
-PictureView picture_view(const Options& options) {
-    for (const auto& [name, kind] : view_spellings)
-        if (name == options.view) {
-            const PictureView view{kind, options.view_range.value_or(0)};
-            if (options.view_range && !(view.range > 0 && view.shows_strain()))
-                throw py::value_error("view_range is a strain above 0, for the views stretch, warp and weft");
-            return view;
-        }
-    throw py::value_error("view is none of shaded, stretch, warp, weft, wire, normals: '" + options.view + "'");
-}
-
 class PySimulation {
   public:
     PySimulation(const Scene& scene, const Options& options) : draws_(options.draw), has_normals_(options.normals) {
@@ -85,7 +115,7 @@ class PySimulation {
         if (options.size) description.image.size = *options.size;
         SimulationOptions wanted;
         wanted.draw = options.draw;
-        wanted.view = picture_view(options);
+        wanted.view = picture_view(options.view, options.view_range);
         wanted.velocities = true;
         wanted.normals = options.normals;
         wanted.keep_promises = !options.keep_failed;
@@ -112,33 +142,13 @@ class PySimulation {
     bool draws() const { return draws_; }
     bool has_normals() const { return has_normals_; }
 
-    /// Finds a cloth by number or by name.
-    std::size_t cloth(const py::object& which) const {
-        const std::vector<Cloth>& cloths = scene().cloths;
-        if (py::isinstance<py::str>(which)) {
-            const auto found = std::ranges::find(cloths, py::cast<std::string>(which), &Cloth::name);
-            if (found == cloths.end()) throw py::key_error(py::cast<std::string>(which));
-            return static_cast<std::size_t>(found - cloths.begin());
-        }
-        const auto number = py::cast<std::size_t>(which);
-        if (number >= cloths.size()) throw py::index_error("no such cloth");
-        return number;
-    }
+    std::size_t cloth(const py::object& which) const { return cloth_number(scene(), which); }
 
   private:
     bool draws_, has_normals_, has_frame_ = false;
     std::optional<Device> device_;
     std::optional<Simulation> simulation_;
 };
-
-/// Returns a read-only view of the library's memory, which lives as long as `owner`.
-template <class T>
-py::array view(const T* data, const std::vector<py::ssize_t>& shape, const std::vector<py::ssize_t>& strides,
-               const py::object& owner) {
-    py::array array(py::dtype::of<T>(), shape, strides, data, owner);
-    array.attr("setflags")(py::arg("write") = false);
-    return array;
-}
 
 using Arrays = std::vector<std::span<const float>>;
 
@@ -178,33 +188,25 @@ py::array_t<float> uv(const PySimulation& self, const py::object& which) {
     return array;
 }
 
-py::dict state_of(const Simulation& simulation) {
-    py::dict state;
-    for (const auto& [name, bytes] : simulation.save())
-        state[py::str(name)] = py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return state;
-}
-
-void restore(Simulation& simulation, const std::map<std::string, std::string>& parts) {
-    SimulationState state;
-    for (const auto& [name, text] : parts) {
-        const auto bytes = std::as_bytes(std::span(text));
-        state[name].assign(bytes.begin(), bytes.end());
-    }
-    simulation.restore(state);
-}
-
 /// Makes drape.Error and one class below it for each way to fail, with `exit_code` as the command line has it.
 class Errors {
   public:
     explicit Errors(py::module_& module) {
         base_ = make(module, "Error", PyExc_RuntimeError, ExitCode::internal,
                      "What drape's library cannot do; exit_code is the command line's.");
+        action_ = make(module, "ActionError", base_.ptr(), ExitCode::usage,
+                       "Actions that an ensemble cannot take; `member` says whose.");
         for (const auto& [code, name, help] : kinds) classes_[code] = make(module, name, base_.ptr(), code, help);
     }
     void raise(const Failure& failure) const {
         const auto found = classes_.find(failure.code);
         PyErr_SetString((found == classes_.end() ? base_ : found->second).ptr(), failure.text.c_str());
+    }
+
+    void raise(const ActionError& error) const {
+        const py::object raised = action_(error.what());
+        raised.attr("member") = error.member();
+        PyErr_SetObject(action_.ptr(), raised.ptr());
     }
 
   private:
@@ -229,7 +231,7 @@ class Errors {
         return type;
     }
 
-    py::object base_;
+    py::object base_, action_;
     std::map<ExitCode, py::object> classes_;
 };
 
@@ -238,6 +240,8 @@ void translate_errors(py::module_& module) {
     py::register_exception_translator([](std::exception_ptr raised) {
         try {
             std::rethrow_exception(std::move(raised));
+        } catch (const ActionError& error) {
+            errors->raise(error);
         } catch (const Error&) {
             errors->raise(current_failure());
         }
@@ -342,13 +346,9 @@ void define_simulation(py::module_& module) {
                                [](const PySimulation& self) { return self.device().validation_count(); })
         .def_property_readonly("can_save", [](const PySimulation& self) { return self.simulation().can_save(); })
         .def(
-            "save", [](const PySimulation& self) { return state_of(self.simulation()); },
+            "save", [](const PySimulation& self) { return state_dict(self.simulation().save()); },
             "What the next frames depend on: a dict of bytes, for restore() of a simulation of the same scene.")
-        .def("restore", [](PySimulation& self, const std::map<std::string, py::bytes>& state) {
-            std::map<std::string, std::string> parts;
-            for (const auto& [name, bytes] : state) parts[name] = bytes;
-            restore(self.simulation(), parts);
-        });
+        .def("restore", [](PySimulation& self, const py::dict& state) { self.simulation().restore(state_of(state)); });
     define_arrays(simulation);
 }
 
@@ -361,6 +361,7 @@ PYBIND11_MODULE(drape, module) {
     drape::python::translate_errors(module);
     drape::python::define_scene(module);
     drape::python::define_simulation(module);
+    drape::python::define_ensemble(module);
     module.def("devices", [] {
         std::vector<std::string> names;
         for (const drape::DeviceInfo& device : drape::Device::list()) names.push_back(device.name);

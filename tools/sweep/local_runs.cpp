@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <deque>
 #include <fstream>
 
 #include "output/atomic_file.h"
@@ -47,35 +48,42 @@ std::string last_line(const std::filesystem::path& file) {
     return last;
 }
 
+using Group = std::vector<std::uint32_t>;
+
 class Pool {
   public:
     Pool(const LocalRuns& runs, const SweepFolder& folder) : runs_(runs), folder_(folder) {}
     ~Pool() {
         // Processes are left only after a failure of this program: nobody would wait for them.
-        for (const auto& [child, index] : running_) kill(child, SIGKILL);
-        for (const auto& [child, index] : running_) waitpid(child, nullptr, 0);
+        for (const auto& [child, group] : running_) kill(child, SIGKILL);
+        for (const auto& [child, group] : running_) waitpid(child, nullptr, 0);
     }
 
     bool run() {
         Progress::Options options = Progress::standard_options(runs_.quiet);
         options.unit = "run";
-        Progress progress(runs_.indices.size(), options);
+        std::deque<Group> waiting(runs_.groups.begin(), runs_.groups.end());
+        std::size_t count = 0;
+        for (const Group& group : waiting) count += group.size();
+        Progress progress(count, options);
         bool stopped = false;
-        for (std::size_t next = 0; next < runs_.indices.size() || !running_.empty();) {
+        while (!waiting.empty() || !running_.empty()) {
             stopped = stopped || !unwritten_.empty() || runs_.stop();
-            while (!stopped && next < runs_.indices.size() && running_.size() < runs_.processes) {
-                const std::uint32_t index = runs_.indices[next++];
-                running_[start(runs_.command(index), folder_.log_file(index))] = index;
+            while (!stopped && !waiting.empty() && running_.size() < runs_.processes) {
+                const Group group = std::move(waiting.front());
+                waiting.pop_front();
+                running_[start(runs_.command(group), folder_.log_file(group.front()))] = group;
             }
             if (running_.empty()) break;
             int status = 0;
             const pid_t child = waitpid(-1, &status, 0);
             if (child < 0 && errno == EINTR) {
-                for (const auto& [each, index] : running_) kill(each, SIGTERM);
+                for (const auto& [each, group] : running_) kill(each, SIGTERM);
                 continue;
             }
             if (const auto found = running_.find(child); found != running_.end()) {
-                if (ended(found->second, status)) progress.frame_done(found->second, note());
+                for (const std::uint32_t index : ended(found->second, status, waiting))
+                    progress.frame_done(index, note());
                 running_.erase(found);
             }
         }
@@ -92,34 +100,43 @@ class Pool {
         return fmt::format("run {}: {}", index, said);
     }
 
-    /// Returns whether the run has a record now.
-    bool ended(std::uint32_t index, int status) {
+    /// Returns the runs of a process that have a record now. Those of several that a crash took, of which it is not known
+    /// whose it was, wait to be made alone.
+    Group ended(const Group& group, int status, std::deque<Group>& waiting) {
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-        auto record = folder_.record(index);
         const bool interrupted =
             code == static_cast<int>(ExitCode::interrupted) || code == static_cast<int>(ExitCode::terminated);
-        if (!record && interrupted) return false;
-        const std::string said = last_line(folder_.log_file(index));
-        if (!record && code == static_cast<int>(ExitCode::io)) {
-            if (unwritten_.empty()) unwritten_ = file_failure(index, said);
-            return false;
+        const std::string said = last_line(folder_.log_file(group.front()));
+        Group recorded;
+        for (const std::uint32_t index : group) {
+            auto record = folder_.record(index);
+            if (!record && interrupted) continue;
+            if (!record && code == static_cast<int>(ExitCode::io)) {
+                if (unwritten_.empty()) unwritten_ = file_failure(index, said);
+                continue;
+            }
+            if (!record && group.size() > 1) {
+                waiting.push_back({index});
+                continue;
+            }
+            if (!record) {
+                record = JobRecord{index, code == 0 ? static_cast<int>(ExitCode::internal) : code, said};
+                folder_.write(*record, runs_.dataset);
+            }
+            if (!record->done()) ++failed_;
+            recorded.push_back(index);
         }
-        if (!record) {
-            record = JobRecord{index, code == 0 ? static_cast<int>(ExitCode::internal) : code, said};
-            folder_.write(*record, runs_.dataset);
-        }
-        if (!record->done()) ++failed_;
         std::error_code ignored;
-        if (std::filesystem::file_size(folder_.log_file(index), ignored) == 0)
-            std::filesystem::remove(folder_.log_file(index), ignored);
-        return true;
+        if (!recorded.empty() && std::filesystem::file_size(folder_.log_file(group.front()), ignored) == 0)
+            std::filesystem::remove(folder_.log_file(group.front()), ignored);
+        return recorded;
     }
 
     std::string note() const { return failed_ > 0 ? fmt::format("{} failed", failed_) : ""; }
 
     const LocalRuns& runs_;
     const SweepFolder& folder_;
-    std::map<pid_t, std::uint32_t> running_;
+    std::map<pid_t, Group> running_;
     std::uint32_t failed_ = 0;
     std::string unwritten_;  ///< first file that a run could not read or write, which ends the sweep
 };

@@ -1,4 +1,5 @@
-// Runs of a sweep on this machine have a process each, so that a crash takes one run with it.
+// Runs of a sweep on this machine have a process each, or one for those that go on together; a crash takes one run with
+// it: the others of its process are made again, alone.
 #pragma once
 
 #include <functional>
@@ -10,10 +11,10 @@
 namespace drape::sweep {
 
 struct LocalRuns {
-    std::vector<std::uint32_t> indices;  ///< to run
-    std::uint32_t processes = 1;         ///< running at a time
-    /// Returns the command line of a run's process, which writes the record; where it could not the caller does.
-    std::function<std::vector<std::string>(std::uint32_t)> command;
+    std::vector<std::vector<std::uint32_t>> groups;  ///< runs of a process each
+    std::uint32_t processes = 1;                     ///< running at a time
+    /// Returns the command line of a process, which writes the records; where it could not the caller does.
+    std::function<std::vector<std::string>(const std::vector<std::uint32_t>&)> command;
     std::function<bool()> stop;  ///< asked when a process ends and when a signal comes; true: end all
     bool quiet = false;
     bool dataset = false;

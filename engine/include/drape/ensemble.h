@@ -49,8 +49,8 @@ class ActionError : public Error {
     std::size_t member_;
 };
 
-/// Four floats per particle of one cloth of every member, on the library's memory until the next step, reset or
-/// restore.
+/// Four floats per particle of one cloth of every member, in the library's memory: they lie there as long as the ensemble
+/// does, and each step, reset and restore changes them.
 struct MemberArray {
     const float* data = nullptr;
     std::size_t members = 0, rows = 0, columns = 0;
@@ -89,6 +89,8 @@ class Ensemble {
     const std::optional<FrameFailure>& failure(std::size_t member) const;
     /// Returns the statistics of a member's cloths.
     const std::vector<ClothStatistics>& statistics(std::size_t member) const;
+    /// Returns the work that a member's frame took; where members share dispatches its substeps alone.
+    const FrameEffort& effort(std::size_t member) const;
     MemberArray positions(std::size_t cloth) const;   ///< x y z, m, and w: relative inverse mass, 0: held
     MemberArray velocities(std::size_t cloth) const;  ///< x y z, m/s, at the frames' ends
     MemberArray normals(std::size_t cloth) const;     ///< unit x y z of the front; only with EnsembleOptions::normals
@@ -101,6 +103,23 @@ class Ensemble {
     /// Takes members to saved states, one for each, of any member of an ensemble of the same scenes' shape and options.
     /// Throws Error where one is not such a state, before any member changes.
     void restore(std::span<const std::size_t> members, std::span<const SimulationState> states);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Frames of an ensemble for simulations that have a thread each (SimulationOptions::member): all of them go on together.
+class EnsembleRun {
+  public:
+    explicit EnsembleRun(Ensemble ensemble);
+    ~EnsembleRun();
+
+    /// Returns a member's next frame, the first time frame 0, once all members that have not left ask for theirs. It is
+    /// valid until then. Throws DeviceError where the ensemble is over.
+    FinishedFrame next(std::size_t member);
+    /// The others no longer wait for this one.
+    void leave(std::size_t member);
 
   private:
     struct Parts;

@@ -31,6 +31,13 @@ struct FrameAttempt {
     std::uint32_t number;  ///< from 1: frames that miss a limit are done again
 };
 
+class EnsembleRun;
+/// A simulation whose frames are those of a member of an ensemble that was made of the same scene.
+struct EnsembleMember {
+    std::shared_ptr<EnsembleRun> run;
+    std::size_t number = 0;
+};
+
 struct SimulationOptions {
     bool draw = false;  ///< make pictures of the scene's size and samples
     PictureView view;   ///< the pictures' view
@@ -45,6 +52,8 @@ struct SimulationOptions {
     Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
     std::function<void(const FrameAttempt&)> on_attempt;  ///< told of before each
+    /// It draws nothing then and cannot be saved.
+    std::optional<EnsembleMember> member;
 };
 
 /// These facts tell how a simulation runs its scene.

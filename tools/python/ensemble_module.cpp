@@ -1,0 +1,233 @@
+// Ensembles in Python: members share dispatches, arrays are [member, row, column, 3] on the library's own memory.
+#include "drape/ensemble.h"
+
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "module.h"
+#include "run/run_statistics.h"
+
+namespace drape::python {
+
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// Returns the members' scenes: so many of the scene, or what each entry makes of it.
+std::vector<SceneDescription> scenes_of(const Scene& scene, const py::object& members) {
+    std::vector<SceneDescription> scenes;
+    if (py::isinstance<py::int_>(members)) {
+        const auto count = py::cast<py::ssize_t>(members);
+        if (count < 1) throw py::value_error("members: expected at least one");
+        scenes.assign(static_cast<std::size_t>(count), scene.description);
+        return scenes;
+    }
+    for (const py::handle member : py::iter(members)) {
+        const auto object = py::reinterpret_borrow<py::object>(member);
+        if (py::isinstance<Scene>(object))
+            scenes.push_back(py::cast<const Scene&>(object).description);
+        else
+            scenes.push_back(changed(scene, py::cast<py::dict>(object)).description);
+    }
+    return scenes;
+}
+
+EnsembleControls controls_of(const std::vector<std::string>& names) {
+    EnsembleControls controls;
+    for (const std::string& name : names) {
+        if (name == "wind")
+            controls.wind = true;
+        else if (name == "pins")
+            controls.pins = true;
+        else if (name == "colliders")
+            controls.colliders = true;
+        else
+            throw py::value_error("controls are wind, pins and colliders, not '" + name + "'");
+    }
+    return controls;
+}
+
+class PyEnsemble {
+  public:
+    PyEnsemble(const std::vector<SceneDescription>& scenes, const EnsembleOptions& options, const std::string& device,
+               bool validate) {
+        const py::gil_scoped_release released;
+        device_.emplace(device, validation_if(validate));
+        ensemble_.emplace(scenes, options, *device_);
+    }
+    Ensemble& ensemble() { return *ensemble_; }
+    const Ensemble& ensemble() const { return *ensemble_; }
+    const Device& device() const { return *device_; }
+
+    void step(const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
+              const std::optional<Numbers>& colliders) {
+        const SceneDescription& scene = ensemble_->scene(0);
+        std::size_t pin_count = 0;
+        for (const Cloth& cloth : scene.cloths) pin_count += cloth.pins.size();
+        std::vector<double> wind_numbers, pin_numbers, collider_numbers;
+        if (wind) wind_numbers = numbers(*wind, "wind", {3}, 0);
+        if (pins) pin_numbers = numbers(*pins, "pins", {pin_count}, 6);
+        if (colliders) collider_numbers = numbers(*colliders, "colliders", {scene.colliders.size()}, 6);
+        const py::gil_scoped_release released;
+        ensemble_->step({wind_numbers, pin_numbers, collider_numbers});
+    }
+
+    /// Returns [member, ...] numbers; with `key`, entries of 3 get no turns: the last 3 are 0.
+    std::vector<double> numbers(const Numbers& array, const char* name, const std::vector<std::size_t>& shape,
+                                std::size_t key) const {
+        const auto extent = [&](py::ssize_t axis) { return static_cast<std::size_t>(array.shape(axis)); };
+        const bool has_key = key > 0;
+        const std::size_t last = array.ndim() > 0 ? extent(array.ndim() - 1) : 0;
+        if (array.ndim() != (has_key ? 3 : 2) || extent(0) != ensemble_->size() || extent(1) != shape[0] ||
+            (has_key && last != 3 && last != key))
+            throw py::value_error(py::str("{}: expected an array [{}, {}{}]")
+                                      .format(name, ensemble_->size(), shape[0], has_key ? ", 3 or 6" : ""));
+        if (!has_key || last == key) return {array.data(), array.data() + array.size()};
+        std::vector<double> all(ensemble_->size() * shape[0] * key);
+        for (std::size_t k = 0; k < ensemble_->size() * shape[0]; ++k)
+            std::copy_n(array.data() + 3 * k, 3, all.begin() + static_cast<std::ptrdiff_t>(key * k));
+        return all;
+    }
+
+  private:
+    std::optional<Device> device_;
+    std::optional<Ensemble> ensemble_;
+};
+
+py::array member_vectors(const py::object& owner, const py::object& which, MemberArray (Ensemble::*what)(std::size_t) const) {
+    const Ensemble& self = py::cast<const PyEnsemble&>(owner).ensemble();
+    const MemberArray array = (self.*what)(cloth_number(self.scene(0), which));
+    const auto size = [](std::size_t count) { return static_cast<py::ssize_t>(count); };
+    const py::ssize_t pitch = 4 * sizeof(float);
+    return view(array.data, {size(array.members), size(array.rows), size(array.columns), 3},
+                {size(array.member_stride * sizeof(float)), size(array.columns) * pitch, pitch, sizeof(float)}, owner);
+}
+
+std::vector<std::size_t> members_of(const Ensemble& ensemble, const py::object& which) {
+    if (!which.is_none()) return py::cast<std::vector<std::size_t>>(which);
+    std::vector<std::size_t> all(ensemble.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+    return all;
+}
+
+void check_member(const Ensemble& ensemble, std::size_t member) {
+    if (member >= ensemble.size()) throw py::index_error("no such member");
+}
+
+std::map<std::size_t, std::string> failures(const Ensemble& ensemble) {
+    std::map<std::size_t, std::string> all;
+    for (std::size_t k = 0; k < ensemble.size(); ++k)
+        if (const auto& failure = ensemble.failure(k)) all[k] = failure->reason;
+    return all;
+}
+
+py::dict statistics(const Ensemble& ensemble, std::size_t member) {
+    check_member(ensemble, member);
+    FinishedFrame frame;
+    frame.frame = ensemble.frame(member);
+    frame.statistics = ensemble.statistics(member);
+    frame.effort = ensemble.effort(member);
+    return py::cast(frame_values(ensemble.scene(member), frame));
+}
+
+py::array picture_of(const py::object& owner, std::size_t member) {
+    auto& self = py::cast<PyEnsemble&>(owner);
+    check_member(self.ensemble(), member);
+    const auto& [width, height] = self.ensemble().scene(member).image.size;
+    const auto bytes = self.ensemble().picture(member);
+    return py::array_t<std::uint8_t>({py::ssize_t{height}, py::ssize_t{width}, py::ssize_t{4}}, bytes.data());
+}
+
+std::unique_ptr<PyEnsemble> make(const py::object& scene, const py::object& members, const std::string& device,
+                                 bool normals, const std::vector<std::string>& controls, const std::string& shown,
+                                 bool validate) {
+    EnsembleOptions options;
+    options.normals = normals;
+    options.controls = controls_of(controls);
+    options.view = picture_view(shown, {});
+    return std::make_unique<PyEnsemble>(scenes_of(any_scene(scene), members), options, device, validate);
+}
+
+void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
+    const auto add = [&](const char* name, MemberArray (Ensemble::*what)(std::size_t) const, const char* help) {
+        ensemble.def(
+            name, [what](const py::object& self, const py::object& cloth) { return member_vectors(self, cloth, what); },
+            py::arg("cloth") = 0, help);
+    };
+    add("positions", &Ensemble::positions,
+        "float32 [member, row, column, 3], m. No copy: read-only, and the next step() changes what is in it. cloth: "
+        "number or name.");
+    add("velocities", &Ensemble::velocities, "float32 [member, row, column, 3], m/s, at the frames' ends.");
+    add("normals", &Ensemble::normals, "float32 [member, row, column, 3], unit, of the front; needs normals=True.");
+}
+
+}  // namespace
+
+void define_ensemble(py::module_& module) {
+    py::class_<PyEnsemble> ensemble(module, "Ensemble", "Many scenes of one shape, simulated together.");
+    ensemble
+        .def(py::init(&make), py::arg("scene"), py::arg("members"), py::kw_only(), py::arg("device") = "",
+             py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("view") = "shaded",
+             py::arg("validate") = false,
+             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
+             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
+             "method. controls: what step() may be given: 'wind', 'pins', 'colliders'. All begin at frame 0.")
+        .def("step", &PyEnsemble::step, py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
+             py::arg("colliders") = py::none(),
+             "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
+             "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
+             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, in order. "
+             "What is not given stays as it is. Raises ActionError, and then no member went on.")
+        .def(
+            "reset",
+            [](PyEnsemble& self, const py::object& members) {
+                self.ensemble().reset(members_of(self.ensemble(), members));
+            },
+            py::arg("members") = py::none(), "Takes members (all of them: None) back to frame 0.")
+        .def(
+            "save",
+            [](const PyEnsemble& self, std::size_t member) {
+                check_member(self.ensemble(), member);
+                return state_dict(self.ensemble().save(member));
+            },
+            py::arg("member"), "What the member's next frames depend on: a dict of bytes, for restore().")
+        .def(
+            "restore",
+            [](PyEnsemble& self, const std::vector<std::size_t>& members, const std::vector<py::dict>& states) {
+                std::vector<SimulationState> all;
+                for (const py::dict& state : states) all.push_back(state_of(state));
+                self.ensemble().restore(members, all);
+            },
+            py::arg("members"), py::arg("states"), "Takes members to saved states, one for each; any member's.")
+        .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
+        .def_property_readonly(
+            "frames",
+            [](const PyEnsemble& self) {
+                py::array_t<std::uint32_t> all(static_cast<py::ssize_t>(self.ensemble().size()));
+                for (std::size_t k = 0; k < self.ensemble().size(); ++k) all.mutable_data()[k] = self.ensemble().frame(k);
+                return all;
+            },
+            "uint32 [member]: the frame that each is at.")
+        .def_property_readonly(
+            "failures", [](const PyEnsemble& self) { return failures(self.ensemble()); },
+            "{member: reason} of those whose frames are no results since they failed; the others go on.")
+        .def(
+            "statistics",
+            [](const PyEnsemble& self, std::size_t member) { return statistics(self.ensemble(), member); },
+            py::arg("member"), "A dict of the frame's numbers, as Simulation.statistics.")
+        .def("picture", &picture_of, py::arg("member"), "uint8 [height, width, 4], sRGB and 255: the member now.")
+        .def_property_readonly(
+            "obstacle", [](const PyEnsemble& self) { return self.ensemble().sharing_obstacle(); },
+            "Why members do not share dispatches and take longer; None: they do.")
+        .def_property_readonly("pass_count", [](const PyEnsemble& self) { return self.ensemble().pass_count(); })
+        .def_property_readonly(
+            "device_ms", [](const PyEnsemble& self) { return self.ensemble().device_milliseconds(); },
+            "Milliseconds that the device spent on the last step.")
+        .def_property_readonly("device", [](const PyEnsemble& self) { return self.device().info().name; })
+        .def_property_readonly("validation_count",
+                               [](const PyEnsemble& self) { return self.device().validation_count(); });
+    define_member_arrays(ensemble);
+}
+
+}  // namespace drape::python

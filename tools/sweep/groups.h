@@ -1,0 +1,39 @@
+// Runs of one shape go on together, in one process, as members of an ensemble.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <vector>
+
+#include "run/run.h"
+
+namespace drape::sweep {
+
+struct GroupedRun {
+    std::uint32_t index;
+    RunRequest request;
+};
+
+/// A group has at most so many runs, each of which has a thread.
+inline constexpr std::size_t most_grouped = 256;
+
+/// Returns whether runs of this scene can share dispatches, and gain by it: its method is named, its cloth neither meets
+/// itself nor is cut nor fills a device alone, and no file has pictures.
+bool can_be_grouped(const RunRequest& request);
+
+/// Returns the runs, in order, in lists of those that go on together. One that goes on alone is in a list of its own.
+std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs);
+
+/// The end of a run: complete, stopped, or failed.
+struct GroupedEnd {
+    std::uint32_t index;
+    bool complete;
+    std::exception_ptr failure;
+};
+
+/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Throws what keeps the ensemble
+/// from being made.
+void run_group(const std::vector<GroupedRun>& group, const std::function<void(const GroupedEnd&)>& ended);
+
+}  // namespace drape::sweep
