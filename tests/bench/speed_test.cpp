@@ -35,7 +35,7 @@ TEST(SpeedCases, HaveNamesOfTheirOwnAndScenesThatTheYardstickKnows) {
     std::set<std::string> names;
     for (const SpeedCase& each : speed_cases(false)) {
         EXPECT_TRUE(names.insert(each.name).second) << each.name;
-        if (each.kind == SpeedKind::skip || each.size > 64) continue;
+        if (each.kind == SpeedKind::skip || each.kind == SpeedKind::ensemble || each.size > 64) continue;
         const SceneDescription scene = scene_of(each);
         EXPECT_EQ(scene.cloths.size(), each.cloths);
         EXPECT_EQ(scene.colliders.size(), each.colliders);
@@ -45,7 +45,7 @@ TEST(SpeedCases, HaveNamesOfTheirOwnAndScenesThatTheYardstickKnows) {
         }
     }
     for (const char* name : {"explicit/2048", "line/32/64 cloths", "line/128/64 colliders", "picture/64/4 samples",
-                             "start/render", "skip/iterations"})
+                             "start/render", "skip/iterations", "ensemble/32/4096 members"})
         EXPECT_TRUE(names.contains(name)) << name;
     for (const SpeedCase& each : speed_cases(true)) EXPECT_LE(each.size, 256u);
 }
@@ -53,6 +53,14 @@ TEST(SpeedCases, HaveNamesOfTheirOwnAndScenesThatTheYardstickKnows) {
 TEST(SpeedCases, EverySkipNamesAShippedScene) {
     for (const SkipCase& skip : skip_cases())
         EXPECT_TRUE(std::ifstream(DRAPE_SOURCE_DIR "/scenes/" + skip.scene)) << skip.scene;
+}
+
+TEST(SpeedReports, EnsemblesStandBesideProcesses) {
+    SpeedCase about{.name = "ensemble/32/64 members", .kind = SpeedKind::ensemble, .variable = 64, .cloths = 64};
+    const SpeedResult result{about, {}, {time_of("frame", 16, 0.1), time_of("device", 15, 0.1), time_of("alone", 1, 0.1)}};
+    const std::string text = speed_text(report_of({result}));
+    // 64 cloths in 16 ms, and two cores that take 1 ms for each.
+    EXPECT_THAT(text, testing::ContainsRegex("ensemble/32/64 members +16.000 +15.000 +4000 +2000 +2.00"));
 }
 
 TEST(SpeedResults, RatiosAreOfMediansAndNoneWithoutBoth) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <json/json.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <chrono>
 #include <sstream>
@@ -73,6 +75,48 @@ TEST_F(Sweep, RunsAllCountsFailuresAndOneAloneHasEqualBytes) {
         EXPECT_EQ(lasting_manifest(folder / ("alone" + name)), lasting_manifest(folder / ("out" + name))) << run;
     }
     EXPECT_NE(file("out/runs/0000/positions.npz"), file("out/runs/0001/positions.npz"));
+}
+
+/// Runs of one process are members of an ensemble; some end early and some diverge.
+TEST_F(Sweep, RunsThatGoOnTogetherHaveTheBytesOfEachAlone) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 8, "set": {"/cloths/0/velocity": [0, 0, 0]},
+        "vary": {"/time/frames": {"grid": [5, 9]}, "/cloths/0/velocity/1": {"grid": [0, 1e37]},
+                 "/cloths/0/areal_density": {"uniform": [0.1, 0.4]}, "/cloths/0/stiffness/stretch": {"uniform": [300, 900]}}})");
+    const Outcome together = sweep({"--index", "0-7"}, "together");
+    EXPECT_EQ(together.code, 5) << together.err;
+    EXPECT_THAT(together.err, HasSubstr("run 2: the simulation diverged"));
+    for (int index = 0; index < 8; ++index)
+        EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, index % 4 < 2 ? 0 : 5);
+    for (const char* output : {"together", "alone"}) EXPECT_EQ(sweep({"--collect", "-q"}, output).code, 9);
+    EXPECT_EQ(results("together"), results("alone"));
+    EXPECT_THAT(results("together")[1], HasSubstr("0,done,0,,"));
+    EXPECT_THAT(results("together")[3], HasSubstr("2,diverged,5,"));
+    for (const char* run : {"0000", "0001", "0004", "0005"}) {
+        const std::string name = std::string("/runs/") + run;
+        EXPECT_EQ(file("together" + name + "/positions.npz"), file("alone" + name + "/positions.npz")) << run;
+        EXPECT_EQ(lasting_manifest(folder / ("together" + name)), lasting_manifest(folder / ("alone" + name))) << run;
+    }
+}
+
+/// Whose run it was that ended a process of several is not known: all of them are made again, alone.
+TEST_F(Sweep, AProcessThatIsKilledCostsNoRun) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 3, "set": {"/time/frames": 1500},
+        "vary": {"/cloths/0/areal_density": {"uniform": [0.1, 0.4]}}})");
+    Running all(DRAPE_PROGRAM, {"sweep", "spec.json", "-o", "out", "--jobs", "1"}, {.folder = folder.path()});
+    const auto begun = [&] {
+        for (const char* run : {"0000", "0001", "0002"})
+            if (!std::filesystem::exists(folder / (std::string("out/runs/") + run))) return false;
+        return true;
+    };
+    ASSERT_TRUE(all.wait_until(begun));
+    const std::string child = read_text(fmt::format("/proc/{0}/task/{0}/children", all.id()));
+    ASSERT_GT(std::atoi(child.c_str()), 0);
+    ASSERT_EQ(kill(std::atoi(child.c_str()), SIGKILL), 0);
+    const Outcome ended = all.wait();
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("3 done, 0 failed, 0 missing"));
+    EXPECT_EQ(sweep({"--index", "1"}, "alone").code, 0);
+    EXPECT_EQ(file("out/runs/0001/positions.npz"), file("alone/runs/0001/positions.npz"));
 }
 
 TEST_F(Sweep, RecordsHaveValuesOfTheirTypesAndTheTablePlainWords) {

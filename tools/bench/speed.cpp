@@ -60,6 +60,9 @@ class SpeedRun {
             case SpeedKind::kernels:
                 results_.push_back(measure_kernels(devices_, each, effort_, request_));
                 return true;
+            case SpeedKind::ensemble:
+                results_.push_back(measure_ensemble(devices_, each, effort_, request_));
+                return true;
             case SpeedKind::skip:
                 return measure_skip_of(each);
             case SpeedKind::start:

@@ -49,6 +49,17 @@ void add_colliders(std::vector<SpeedCase>& cases) {
                          .colliders = count});
 }
 
+void add_ensembles(bool is_short, std::vector<SpeedCase>& cases) {
+    for (const std::uint32_t count : {1u, 4u, 16u, 64u, 256u, 1024u, 4096u})
+        if (!is_short || count <= 256)
+            cases.push_back({.name = fmt::format("ensemble/32/{} members", count),
+                             .kind = SpeedKind::ensemble,
+                             .group = "ensembles of 32x32",
+                             .variable = count,
+                             .size = 32,
+                             .cloths = count});
+}
+
 void add_pictures(std::vector<SpeedCase>& cases) {
     for (const std::uint32_t samples : {1u, 4u})
         cases.push_back({.name = fmt::format("picture/64/{} samples", samples),
@@ -107,6 +118,7 @@ std::vector<SpeedCase> speed_cases(bool is_short) {
     add_sizes(short_sizes, cases);
     add_cloths(cases);
     add_colliders(cases);
+    add_ensembles(is_short, cases);
     add_pictures(cases);
     for (const SkipCase& skip : skip_cases())
         cases.push_back({.name = skip.name, .kind = SpeedKind::skip, .group = "skips"});

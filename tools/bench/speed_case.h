@@ -10,7 +10,7 @@
 
 namespace drape::bench {
 
-enum class SpeedKind { solve, picture, skip, start, kernels };
+enum class SpeedKind { solve, picture, skip, start, kernels, ensemble };
 
 struct SpeedCase {
     std::string name{};  ///< "line/256": what --filter is matched with
@@ -19,7 +19,7 @@ struct SpeedCase {
     std::uint32_t variable = 0;  ///< what they differ in: particles along a side, cloths, colliders
     SolverMethod method = SolverMethod::line;
     std::uint32_t size = 64;  ///< particles along both sides of each cloth
-    std::uint32_t cloths = 1, colliders = 0, samples = 4;
+    std::uint32_t cloths = 1, colliders = 0, samples = 4;  ///< cloths: of an ensemble, its members
     bool draw = false;
 
     /// Per frame. Explicit micro-steps are taken in flights of four between a frame's first and last, which stay alone;

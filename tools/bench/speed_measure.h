@@ -41,6 +41,9 @@ SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, 
 /// names.
 SpeedResult measure_kernels(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
                             const BenchRequest& request);
+/// Times "frame", a step of an ensemble of so many members, and "alone", a frame of one by itself, on one thread.
+SpeedResult measure_ensemble(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
+                             const BenchRequest& request);
 /// `scene`: the shipped one.
 SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, const SkipCase& skip,
                          const SceneDescription& scene, const SpeedEffort& effort, const BenchRequest& request);

@@ -198,8 +198,29 @@ std::string fit_table(const SpeedReport& report) {
     return text.empty() ? text : "\nScaling: exponents of the times\n" + text;
 }
 
+/// Cloth frames a second of ensembles, and of processes, one on each core.
+std::string ensemble_table(const SpeedReport& report) {
+    std::string text;
+    for (const SpeedResult& result : report.results) {
+        if (result.about.kind != SpeedKind::ensemble) continue;
+        const auto median = [&](const char* name) {
+            const SpeedTime* const time = result.find(name);
+            return time ? time->statistics.median : 0;
+        };
+        const double together = 1e3 * result.about.cloths / median("frame");
+        const double processes = 1e3 * report.cores / median("alone");
+        text += fmt::format("{:<28}{:>12.3f}{:>12.3f}{:>16.0f}{:>16.0f}{:>10.2f}\n", result.about.name, median("frame"),
+                            median("device"), together, processes, together / processes);
+    }
+    if (text.empty()) return text;
+    return fmt::format("\nEnsembles: ms a step, and cloth frames a second beside processes, one on each core\n"
+                       "{:<28}{:>12}{:>12}{:>16}{:>16}{:>10}\n",
+                       "case", "step", "device", "together", "processes", "ratio") +
+           text;
+}
+
 const char* kind_name(SpeedKind kind) {
-    constexpr const char* names[] = {"solve", "picture", "skip", "start", "kernels"};
+    constexpr const char* names[] = {"solve", "picture", "skip", "start", "kernels", "ensemble"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -275,7 +296,7 @@ std::string speed_text(const SpeedReport& report) {
     if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
     if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
     return text + solver_table(report) + kernel_table(report) + cost_table(report) + fit_table(report) +
-           parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
+           ensemble_table(report) + parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
            skip_table(report) + parts_table(report, SpeedKind::start, "Starts");
 }
 

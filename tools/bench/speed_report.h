@@ -16,7 +16,8 @@ namespace drape::bench {
 /// (from one frame's end to the next), "device" (of those, the device's own time, where it has timestamps), "native"
 /// (the same arithmetic in C++ on all cores), "native, one core", "native, scalar" (on one core, compiled without
 /// vectors). Pictures: "frame" and the device's stages. Skips: "frame", "without". Kernels: "frame", as `auto` runs
-/// it, and each by its name. Starts, cold and warm: their parts.
+/// it, and each by its name. Ensembles: "frame", a step of all members, "device", and "alone", a frame of one by itself
+/// on one thread. Starts, cold and warm: their parts.
 struct SpeedTime {
     std::string name;
     profile::Statistics statistics;

@@ -13,8 +13,9 @@ the same arithmetic, to the same bits, in C++ built for this processor: on all
 cores, on one, and on one without vectors. GB/s and GFLOP/s follow from what the
 passes declare; `of copy` is the share of what a copy between buffers moves (64
 MiB on a CPU, 1 GiB by a pass on a GPU). Sheets of 32x32 to 2048x2048 particles, up to 64 cloths and 64 colliders;
-pictures; what skips save on the shipped scenes; starts of a program, with an
-empty shader cache (cold) and a full one (warm). The sides of a comparison take
+pictures; ensembles of 1 to 4096 members of 32x32, beside processes; what skips
+save on the shipped scenes; starts of a program, with an empty shader cache
+(cold) and a full one (warm). The sides of a comparison take
 turns. Medians over rounds; times whose interquartile range is above 30 % are
 marked doubtful.
 
@@ -33,7 +34,7 @@ Examples:
     add_option(command, "--scenes", "DIR", "Where the shipped scenes are, for skips; default:\nscenes",
                request->scenes);
     add_case_options(command,
-                     {"METHOD/N, METHOD/N/COUNT cloths or colliders, picture/..., skip/..., start/..., with --tune "
+                     {"METHOD/N, METHOD/N/COUNT cloths or colliders, ensemble/..., picture/..., skip/..., start/..., with --tune "
                       "kernels/METHOD/...; default: all",
                       "Sheets of at most 256x256 and shorter rounds: under 2 minutes on an idle machine",
                       "Write times, ratios and scaling as JSON", "Write a row per case and time",

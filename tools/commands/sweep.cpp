@@ -85,7 +85,9 @@ class RunsHere {
         } else {
             sweep::run_group(group, [&](const sweep::GroupedEnd& run) { end(run); });
         }
-        if (unwritten_) std::rethrow_exception(unwritten_);
+        if (unwritten_ && group.size() == 1) std::rethrow_exception(unwritten_->error);
+        if (unwritten_)
+            throw OutputError(fmt::format("run {}: {}", unwritten_->index, failure_of(unwritten_->error).text));
         return stopped_.empty();
     }
     ExitCode worst() const { return worst_; }
@@ -126,8 +128,7 @@ class RunsHere {
             const Failure failure = failure_of(run.failure);
             // A full disk says nothing about the run: without a record --resume runs it again.
             if (failure.code == ExitCode::io) {
-                if (!unwritten_) unwritten_ = run.failure;
-                return;
+                return leave_unwritten({run.index, run.failure});
             }
             record.exit_code = static_cast<int>(failure.code);
             record.message = failure.text;
@@ -140,9 +141,16 @@ class RunsHere {
         try {
             folder_.write(record, options_.dataset);
         } catch (const OutputError&) {
-            unwritten_ = std::current_exception();
+            return leave_unwritten({run.index, std::current_exception()});
         }
         note(static_cast<ExitCode>(record.exit_code));
+    }
+    struct Unwritten {
+        std::uint32_t index;
+        std::exception_ptr error;
+    };
+    void leave_unwritten(const Unwritten& run) {
+        if (!unwritten_ || run.index < unwritten_->index) unwritten_ = run;
     }
     static Failure failure_of(const std::exception_ptr& error) {
         try {
@@ -158,7 +166,7 @@ class RunsHere {
     std::chrono::steady_clock::time_point begun_;
     ExitCode worst_ = ExitCode::ok;
     std::string stopped_;             ///< the first run that was
-    std::exception_ptr unwritten_;    ///< the first file that could not be written
+    std::optional<Unwritten> unwritten_;  ///< the first run with a file that could not be written
 };
 
 /// Makes the runs of --index, those of one shape together.

@@ -97,7 +97,7 @@ class Pool {
         constexpr std::string_view program = "drape: ";
         if (said.starts_with(program)) said.erase(0, program.size());
         if (said.empty()) write_file(folder_.log_file(index), said = "it could not write its files, nor why");
-        return fmt::format("run {}: {}", index, said);
+        return said.starts_with("run ") ? said : fmt::format("run {}: {}", index, said);
     }
 
     /// Returns the runs of a process that have a record now. Those of several that a crash took, of which it is not known

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "output/atomic_file.h"
 #include "output/csv_text.h"
@@ -119,13 +120,17 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh
     json["specification"] = parse_json(spec.text).value_or(Json::Value(spec.text));
     const std::string text = json_text(json);
     const fs::path file = path_ / "sweep.json";
-    const auto there = content(file);
+    auto there = content(file);
+    const auto looks_foreign = [&] { return !there && holds_anything(path_) && !is_there(path_ / "jobs"); };
+    // Another job of the sweep may be making the folder just now.
+    for (int wait = 0; wait < 20 && looks_foreign(); ++wait, there = content(file))
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (there && *there != text)
         throw OutputError(
             fmt::format("'{}' is another sweep's: its specification, scene or program differs", path.string()));
     if (fresh && holds_anything(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
-    if (!there && holds_anything(path_) && !is_there(path_ / "jobs"))
+    if (looks_foreign())
         throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
     // The file that says whose folder it is comes first: without room for the rest the sweep can still go on.
     make_folder(path_);
