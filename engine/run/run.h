@@ -57,8 +57,8 @@ struct RunRequest {
     std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish what is in flight and end
     std::function<void()> saving;  ///< told before a checkpoint is written
 
-    /// The run's frames are those of a member of an ensemble of the same scene on this device. No format draws, and there
-    /// are no checkpoints.
+    /// The run's frames are those of a member of an ensemble of the same scene on this device. No format draws, and
+    /// there are no checkpoints.
     struct Shared {
         Device device;
         EnsembleMember member;

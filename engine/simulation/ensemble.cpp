@@ -20,7 +20,7 @@ constexpr const char* member_part = "member";
 
 /// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false for what is of none.
 template <class Archive>
-bool transfer(Archive& archive, Member& member, MemberMotion& motion) {
+bool transfer(Archive& archive, MemberProgress& member, MemberMotion& motion) {
     archive(member.frame, member.pins_acted, member.colliders_acted, member.judged);
     bool failed = member.failure.has_value();
     archive(failed);
@@ -118,7 +118,7 @@ void Ensemble::step(const EnsembleActions& actions) {
     Members& members = parts_->members;
     check_actions(actions, parts_->options.controls, members.front()->model, members.size());
     for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
-    // What moves a cloth until the frame's end is known before its statistics, those of the frame before are there.
+    // The statistics of the frame before are there, and what moves cloths until this one's end is known.
     parts_->runs->step([&] {
         for (const auto& member : members) {
             member->judge();
@@ -132,6 +132,7 @@ void Ensemble::reset(std::span<const std::size_t> members) {
     parts_->check_numbers(members);
     for (const std::size_t number : members) parts_->members[number]->begin_anew();
     parts_->runs->reset(members);
+    parts_->runs->look();
 }
 
 MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::position); }
@@ -156,25 +157,33 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
     parts_->check_numbers(members);
     if (members.size() != states.size())
         throw Error(fmt::format("{} states for {} members", states.size(), members.size()));
+    std::vector<MemberProgress> progress;
+    std::vector<MemberMotion> motions;
     for (std::size_t k = 0; k < members.size(); ++k) {
+        const Member& member = *parts_->members[members[k]];
         const auto part = states[k].find(member_part);
         if (part == states[k].end()) throw Error("the saved state is not of an ensemble's member");
-        Member& member = *parts_->members[members[k]];
-        member.begin_anew();
-        MemberMotion motion(member.model);
+        progress.emplace_back().watch = std::make_unique<Watch>(member.model);
+        progress.back().statistics.resize(member.model.cloths.size());
+        motions.emplace_back(member.model);
         ByteReader reader(part->second);
-        if (!transfer(reader, member, motion) || reader.left() > 0)
+        if (!transfer(reader, progress.back(), motions.back()) || reader.left() > 0)
             throw Error("the saved state is not of this scene: its part 'member' is of something else");
-        motion.put_into(member.model);
     }
     parts_->runs->restore(members, states);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Member& member = *parts_->members[members[k]];
+        static_cast<MemberProgress&>(member) = std::move(progress[k]);
+        motions[k].put_into(member.model);
+    }
+    parts_->runs->look();
 }
 
 std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {
     constexpr std::size_t most_kept = 4;
     Member& member = *parts_->members.at(number);
     auto& all = parts_->pictures;
-    // What draws a member has its own colliders' paths.
+    // Pictures keep the paths that a member's colliders had.
     if (parts_->options.controls.colliders || (all.size() >= most_kept && !all.contains(number))) all.clear();
     std::unique_ptr<Pictures>& pictures = all[number];
     if (!pictures) {

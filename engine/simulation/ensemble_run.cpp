@@ -9,7 +9,7 @@ namespace drape {
 
 struct EnsembleRun::Parts {
     explicit Parts(Ensemble given)
-        : ensemble(std::move(given)), waiting(ensemble.size()), present(ensemble.size()), begun(ensemble.size()) {
+        : ensemble(std::move(given)), present(ensemble.size()), begun(present), gone(present) {
         take_arrays();
     }
 
@@ -52,16 +52,14 @@ struct EnsembleRun::Parts {
     Ensemble ensemble;
     std::mutex mutex;
     std::condition_variable stepped;
-    std::size_t waiting, present;
-    std::vector<bool> begun, gone = std::vector<bool>(ensemble.size());
+    std::size_t waiting = 0, present;
+    std::vector<bool> begun, gone;
     std::uint64_t round = 0;
     std::exception_ptr failed;
     std::vector<MemberArray> positions, velocities;  ///< by cloth
 };
 
-EnsembleRun::EnsembleRun(Ensemble ensemble) : parts_(std::make_unique<Parts>(std::move(ensemble))) {
-    parts_->waiting = 0;
-}
+EnsembleRun::EnsembleRun(Ensemble ensemble) : parts_(std::make_unique<Parts>(std::move(ensemble))) {}
 EnsembleRun::~EnsembleRun() = default;
 
 FinishedFrame EnsembleRun::next(std::size_t member) {

@@ -98,11 +98,8 @@ Member::Member(const SceneDescription& scene, const EnsembleControls& controls, 
 
 void Member::begin_anew() {
     start.put_into(model);
-    watch.emplace(model);
-    frame = 0;
-    effort = {};
-    failure.reset();
-    pins_acted = colliders_acted = judged = false;
+    static_cast<MemberProgress&>(*this) = {};
+    watch = std::make_unique<Watch>(model);
 }
 
 void Member::judge() {

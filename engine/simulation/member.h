@@ -1,6 +1,7 @@
 // A member of an ensemble: its scene's model, which actions change, and its last frame.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,7 +36,18 @@ struct MemberMotion {
     std::vector<MotionPath> colliders;  ///< sorted by kind
 };
 
-struct Member {
+/// How far a member is, as the host knows it.
+struct MemberProgress {
+    std::uint32_t frame = 0;
+    std::optional<FrameFailure> failure;
+    bool judged = false;  ///< the statistics of the frame were looked at
+    std::vector<ClothStatistics> statistics;
+    FrameEffort effort;
+    bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
+    std::unique_ptr<Watch> watch;                      ///< of the member's model
+};
+
+struct Member : MemberProgress {
     /// `controls`: these are made able to move.
     Member(const SceneDescription& scene, const EnsembleControls& controls, const ModelOptions& options);
     Member(const Member&) = delete;
@@ -43,13 +55,6 @@ struct Member {
 
     SimulationModel model;
     MemberMotion start;  ///< before any action
-    std::optional<Watch> watch;
-    std::uint32_t frame = 0;
-    std::optional<FrameFailure> failure;
-    bool judged = false;
-    std::vector<ClothStatistics> statistics;
-    FrameEffort effort;
-    bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
 
     /// Makes it what it was before frame 0.
     void begin_anew();

@@ -25,9 +25,11 @@ class MemberRuns {
     virtual void reset(std::span<const std::size_t> members) = 0;
     /// Returns what the member's next frame depends on, beside its model.
     virtual SimulationState save(std::size_t member) const = 0;
-    /// Takes members, whose frame, statistics and model are those of the states, to them. Throws Error where one is not that,
-    /// before any is changed on the device.
+    /// Takes members to saved states, as far as they are the device's. Throws Error where one is not of such a member,
+    /// before any changes where they share dispatches.
     virtual void restore(std::span<const std::size_t> members, std::span<const SimulationState> states) = 0;
+    /// Hands out the arrays of what members were taken to, where that did not.
+    virtual void look() {}
     virtual MemberArray array(std::size_t cloth, MemberValue value) const = 0;
     virtual std::size_t pass_count() const = 0;
     virtual double device_milliseconds() const { return 0; }

@@ -27,7 +27,11 @@ class MembersApart : public MemberRuns {
         frames_.resize(members.size());
         for (std::size_t k = 0; k < members.size(); ++k) {
             over_.push_back(false);
-            loops_.push_back(std::make_unique<FrameLoop>(device, members[k]->model, loop_options_));
+            try {
+                loops_.push_back(std::make_unique<FrameLoop>(device, members[k]->model, loop_options_));
+            } catch (const vulkan::VulkanError& error) {
+                throw vulkan::VulkanError(fmt::format("{} of {} members fit: {}", k, members.size(), error.what()));
+            }
             starts_.push_back(loops_.back()->save());
             simulate(k, 0);
         }

@@ -54,7 +54,7 @@ class MembersTogether : public MemberRuns {
         excess_ = solver_.readback(*pool_, slot, "excess displacement");
         if (options_.normals) normals_ = solver_.readback(*pool_, slot, "normal");
         records_ = solver_.statistics_records(*pool_, slot);
-        look();
+        submit(look_, 0);
         for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
         for (const auto& member : members_) start_statistics_.push_back(member->statistics);
     }
@@ -95,6 +95,10 @@ class MembersTogether : public MemberRuns {
                 states[numbers[i] * cloths_each_ + k] = &own;
             }
         put(states);
+    }
+
+    void look() override {
+        if (options_.normals) submit(look_, 0);
     }
 
     MemberArray array(std::size_t cloth, MemberValue value) const override {
@@ -140,8 +144,6 @@ class MembersTogether : public MemberRuns {
         milliseconds_ = 0;
         for (const graph::Timing& timing : planned.recorded->timings(slot)) milliseconds_ += timing.milliseconds;
     }
-    /// Hands out what there is.
-    void look() { submit(look_, 0); }
 
     void put(const std::map<std::size_t, const ClothBytes*>& states) {
         try {
@@ -149,12 +151,11 @@ class MembersTogether : public MemberRuns {
         } catch (const std::invalid_argument& wrong) {
             throw Error(wrong.what());
         }
-        if (options_.normals) return look();
         // The arrays on the host are as a look would leave them, which is as long as a pass over all members.
         for (const auto& [cloth, state] : states)
-            for (const auto& [field, views] : {std::pair{Field::position, &positions_},
-                                               std::pair{Field::displacement, &moved_},
-                                               std::pair{Field::end_excess, &excess_}}) {
+            for (const auto& [field, views] :
+                 {std::pair{Field::position, &positions_}, std::pair{Field::displacement, &moved_},
+                  std::pair{Field::end_excess, &excess_}}) {
                 const std::vector<std::byte> bytes =
                     state ? field_of(*state, field) : solver_.start_of_field(cloth, field);
                 std::memcpy(const_cast<float*>((*views)[cloth].data()), bytes.data(), bytes.size());
@@ -212,11 +213,11 @@ class MembersTogether : public MemberRuns {
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;  ///< goes, and waits for work in flight, before what that uses
     double milliseconds_ = 0;
-    // What the slot's last frame left on the host, cloth by cloth, member by member.
+    // The slot's last frame left these on the host, cloth by cloth, member by member.
     Views positions_, moved_, excess_, normals_;
     std::vector<std::span<const std::byte>> records_;
     std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
-    std::vector<FrameInputs> inputs_;  ///< by member
+    std::vector<FrameInputs> inputs_;                             ///< by member
     FrameInputs joined_;
     mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };

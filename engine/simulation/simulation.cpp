@@ -1,7 +1,5 @@
 #include "drape/simulation.h"
 
-#include "drape/ensemble.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/passage_watch.h"
 #include "cloth/together.h"
+#include "drape/ensemble.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
@@ -94,8 +93,7 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
-    if (wanted.member)
-        options.next_elsewhere = [member = *wanted.member] { return member.run->next(member.number); };
+    if (wanted.member) options.next_elsewhere = [member = *wanted.member] { return member.run->next(member.number); };
     if (wanted.on_cut)
         options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
             const CutCounts& counts = event.counts;

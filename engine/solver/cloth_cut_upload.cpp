@@ -163,23 +163,23 @@ std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& 
 void ClothSolver::upload_cloths(const graph::ResourcePool& pool,
                                 const std::map<std::size_t, const ClothBytes*>& states) const {
     std::vector<vulkan::RowsOfImage> uploads;
-    for_state_images(pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set,
-                               std::span<const std::size_t> cloths) {
-        if (set != StateSet::run) return;
-        const auto height = static_cast<std::uint32_t>(image.description().height / cloths.size());
-        const std::size_t size = std::size_t{image.description().width} * height * row.element.size;
-        for (const std::size_t cloth : cloths) {
-            const auto state = states.find(cloth);
-            if (state == states.end()) continue;
-            std::vector<std::byte> bytes =
-                state->second ? field_of(*state->second, row.field) : start_of_field(cloth, row.field);
-            if (!state->second && bytes.empty()) bytes.resize(size);  // it starts zeroed
-            if (bytes.size() != size)
-                throw std::invalid_argument("the saved state is not of this scene: field '" + std::string(row.name) +
-                                            "'");
-            uploads.push_back({&image, place_of_[cloth] * height, std::move(bytes)});
-        }
-    });
+    for_state_images(
+        pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
+            if (set != StateSet::run) return;
+            const auto height = static_cast<std::uint32_t>(image.description().height / cloths.size());
+            const std::size_t size = std::size_t{image.description().width} * height * row.element.size;
+            for (const std::size_t cloth : cloths) {
+                const auto state = states.find(cloth);
+                if (state == states.end()) continue;
+                std::vector<std::byte> bytes =
+                    state->second ? field_of(*state->second, row.field) : start_of_field(cloth, row.field);
+                if (!state->second && bytes.empty()) bytes.resize(size);  // it starts zeroed
+                if (bytes.size() != size)
+                    throw std::invalid_argument("the saved state is not of this scene: field '" +
+                                                std::string(row.name) + "'");
+                uploads.push_back({&image, place_of_[cloth] * height, std::move(bytes)});
+            }
+        });
     vulkan::upload_rows(pool.device(), uploads);
 }
 

@@ -57,7 +57,8 @@ TEST(SpeedCases, EverySkipNamesAShippedScene) {
 
 TEST(SpeedReports, EnsemblesStandBesideProcesses) {
     SpeedCase about{.name = "ensemble/32/64 members", .kind = SpeedKind::ensemble, .variable = 64, .cloths = 64};
-    const SpeedResult result{about, {}, {time_of("frame", 16, 0.1), time_of("device", 15, 0.1), time_of("alone", 1, 0.1)}};
+    const SpeedResult result{
+        about, {}, {time_of("frame", 16, 0.1), time_of("device", 15, 0.1), time_of("alone", 1, 0.1)}};
     const std::string text = speed_text(report_of({result}));
     // 64 cloths in 16 ms, and two cores that take 1 ms for each.
     EXPECT_THAT(text, testing::ContainsRegex("ensemble/32/64 members +16.000 +15.000 +4000 +2000 +2.00"));

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
-
 #include <signal.h>
 
 #include <algorithm>
@@ -79,7 +78,8 @@ TEST_F(Sweep, RunsAllCountsFailuresAndOneAloneHasEqualBytes) {
 
 /// Runs of one process are members of an ensemble; some end early and some diverge.
 TEST_F(Sweep, RunsThatGoOnTogetherHaveTheBytesOfEachAlone) {
-    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 8, "set": {"/cloths/0/velocity": [0, 0, 0]},
+    write_text(folder / "spec.json",
+               R"({"scene": "scene.json", "seed": 7, "count": 8, "set": {"/cloths/0/velocity": [0, 0, 0]},
         "vary": {"/time/frames": {"grid": [5, 9]}, "/cloths/0/velocity/1": {"grid": [0, 1e37]},
                  "/cloths/0/areal_density": {"uniform": [0.1, 0.4]}, "/cloths/0/stiffness/stretch": {"uniform": [300, 900]}}})");
     const Outcome together = sweep({"--index", "0-7"}, "together");

@@ -86,7 +86,7 @@ bool same_bytes(std::span<const float> one, std::span<const float> other) {
     return one.size() == other.size() && std::memcmp(one.data(), other.data(), one.size_bytes()) == 0;
 }
 
-/// What a frame of a scene alone is.
+/// A scene by itself.
 struct Alone {
     explicit Alone(const SceneDescription& scene)
         : simulation(scene, {.velocities = true, .normals = true, .keep_promises = false}, library_device()) {}
@@ -204,7 +204,7 @@ TEST_F(EnsembleTest, AMemberThatDivergesLeavesTheOthersAsTheyAre) {
         EXPECT_FALSE(ensemble.failure(k).has_value());
         EXPECT_TRUE(same_bytes(of_member(ensemble.positions(0), k), of_member(right.positions(0), k)));
     }
-    // What it fails at is told of the frame that it failed in, however many follow.
+    // However many frames follow, it tells of the one that it failed in.
     const FrameFailure failure = *ensemble.failure(1);
     ensemble.step();
     EXPECT_EQ(ensemble.failure(1)->reason, failure.reason);
@@ -340,7 +340,8 @@ std::string refusal(const std::vector<SceneDescription>& members, const Ensemble
 TEST_F(EnsembleTest, MembersOfUnlikeShapeAreRefusedWithTheReason) {
     std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
     members[2].cloths[0].grid = {18, 12};
-    EXPECT_THAT(refusal(members), HasSubstr("member 2 is of another shape than member 0: /cloths/0/grid is 18 x 12, not 17 x 12"));
+    EXPECT_THAT(refusal(members),
+                HasSubstr("member 2 is of another shape than member 0: /cloths/0/grid is 18 x 12, not 17 x 12"));
     members = drawn(scene_of(), 2, seed);
     members[1].colliders.pop_back();
     EXPECT_THAT(refusal(members), HasSubstr("/colliders is "));

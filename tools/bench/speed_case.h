@@ -18,7 +18,7 @@ struct SpeedCase {
     std::string group{};         ///< cases that a line of a plot joins: "line", "line, cloths"
     std::uint32_t variable = 0;  ///< what they differ in: particles along a side, cloths, colliders
     SolverMethod method = SolverMethod::line;
-    std::uint32_t size = 64;  ///< particles along both sides of each cloth
+    std::uint32_t size = 64;                               ///< particles along both sides of each cloth
     std::uint32_t cloths = 1, colliders = 0, samples = 4;  ///< cloths: of an ensemble, its members
     bool draw = false;
 

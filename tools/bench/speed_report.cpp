@@ -213,9 +213,10 @@ std::string ensemble_table(const SpeedReport& report) {
                             median("device"), together, processes, together / processes);
     }
     if (text.empty()) return text;
-    return fmt::format("\nEnsembles: ms a step, and cloth frames a second beside processes, one on each core\n"
-                       "{:<28}{:>12}{:>12}{:>16}{:>16}{:>10}\n",
-                       "case", "step", "device", "together", "processes", "ratio") +
+    return fmt::format(
+               "\nEnsembles: ms a step, and cloth frames a second beside processes, one on each core\n"
+               "{:<28}{:>12}{:>12}{:>16}{:>16}{:>10}\n",
+               "case", "step", "device", "together", "processes", "ratio") +
            text;
 }
 
@@ -296,7 +297,8 @@ std::string speed_text(const SpeedReport& report) {
     if (report.copy_bandwidth > 0) text += fmt::format("a copy moves {:.2f} GB/s\n", 1e-9 * report.copy_bandwidth);
     if (!report.complete) text += "Cases were left out: by the budget of time, or for want of the shipped scenes.\n";
     return text + solver_table(report) + kernel_table(report) + cost_table(report) + fit_table(report) +
-           ensemble_table(report) + parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
+           ensemble_table(report) +
+           parts_table(report, SpeedKind::picture, "Pictures of 64x64 particles, 1280x720, ms per frame") +
            skip_table(report) + parts_table(report, SpeedKind::start, "Starts");
 }
 

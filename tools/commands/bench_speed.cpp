@@ -33,13 +33,14 @@ Examples:
         request->tune);
     add_option(command, "--scenes", "DIR", "Where the shipped scenes are, for skips; default:\nscenes",
                request->scenes);
-    add_case_options(command,
-                     {"METHOD/N, METHOD/N/COUNT cloths or colliders, ensemble/..., picture/..., skip/..., start/..., with --tune "
-                      "kernels/METHOD/...; default: all",
-                      "Sheets of at most 256x256 and shorter rounds: under 2 minutes on an idle machine",
-                      "Write times, ratios and scaling as JSON", "Write a row per case and time",
-                      "Write plots of time against particles, cloths and colliders"},
-                     *request);
+    add_case_options(
+        command,
+        {"METHOD/N, METHOD/N/COUNT cloths or colliders, ensemble/..., picture/..., skip/..., start/..., with --tune "
+         "kernels/METHOD/...; default: all",
+         "Sheets of at most 256x256 and shorter rounds: under 2 minutes on an idle machine",
+         "Write times, ratios and scaling as JSON", "Write a row per case and time",
+         "Write plots of time against particles, cloths and colliders"},
+        *request);
 }
 
 }  // namespace drape::cli

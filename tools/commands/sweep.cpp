@@ -165,7 +165,7 @@ class RunsHere {
     const sweep::SweepFolder& folder_;
     std::chrono::steady_clock::time_point begun_;
     ExitCode worst_ = ExitCode::ok;
-    std::string stopped_;             ///< the first run that was
+    std::string stopped_;                 ///< the first run that was
     std::optional<Unwritten> unwritten_;  ///< the first run with a file that could not be written
 };
 
@@ -194,8 +194,8 @@ ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder)
     return tally.complete() ? ExitCode::ok : ExitCode::sweep;
 }
 
-/// Returns how many runs a process makes, where they go on together. On a CPU more than some gain nothing, and their files
-/// come late; a GPU has room for many, and a process for each core keeps it fed.
+/// Returns how many runs a process makes, where they go on together. On a CPU more than some gain nothing, and their
+/// files come late; a GPU has room for many, and a process for each core keeps it fed.
 std::size_t group_size(const SweepOptions& options, std::size_t runs, std::size_t processes) {
     const bool on_cpu = Device(options.device).info().type == "cpu";
     const std::size_t most = on_cpu ? 16 : sweep::most_grouped;
@@ -279,6 +279,8 @@ number of its own: --index I anywhere gives the bytes that the whole sweep
 gives. Grids are counted through, the last pointer in alphabetical order
 fastest; without a count every combination runs once.
 
+Runs of one shape whose method is named share a process and its dispatches.
+
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
 results.csv, a line per run, failed ones too: exit code 9 when there is one; no
 text in it is a control character or, to a spreadsheet, a formula. A
@@ -286,7 +288,7 @@ file that a run cannot read or write ends the sweep with exit code 1; that run
 has no record, and --resume runs it.
 
 Examples:
-  drape sweep spec.json -o out/sweep              all cores; a process per run
+  drape sweep spec.json -o out/sweep              all cores
   drape sweep spec.json -o out/sweep --resume     after an interruption
   drape sweep spec.json -o out/data --dataset     layout of flag_simple
   drape sweep spec.json -o out/sweep --index 17   one run, on any machine
@@ -303,8 +305,7 @@ void add_sweep(Program& program) {
                                     [=] { return run(*options); });
     add_required_file(command, "SPEC", "What changes from run to run, as below", options->spec);
     add_option(command, "-o,--output", "DIR", "Folder for all runs, made when missing", options->output);
-    add_option(command, "--index", "I,...", "Only these runs, here, one after the other: 7, 0-99 or 1,5,9-12",
-               options->indices);
+    add_option(command, "--index", "I,...", "Only these runs, here: 7, 0-99 or 1,5,9-12", options->indices);
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
     add_format_option(command, "What each run writes; default: npz", options->formats);
     add_flag(command, "--dataset",

@@ -1,10 +1,9 @@
 // Ensembles in Python: members share dispatches, arrays are [member, row, column, 3] on the library's own memory.
-#include "drape/ensemble.h"
-
 #include <pybind11/stl.h>
 
 #include <optional>
 
+#include "drape/ensemble.h"
 #include "module.h"
 #include "run/run_statistics.h"
 
@@ -95,7 +94,8 @@ class PyEnsemble {
     std::optional<Ensemble> ensemble_;
 };
 
-py::array member_vectors(const py::object& owner, const py::object& which, MemberArray (Ensemble::*what)(std::size_t) const) {
+py::array member_vectors(const py::object& owner, const py::object& which,
+                         MemberArray (Ensemble::*what)(std::size_t) const) {
     const Ensemble& self = py::cast<const PyEnsemble&>(owner).ensemble();
     const MemberArray array = (self.*what)(cloth_number(self.scene(0), which));
     const auto size = [](std::size_t count) { return static_cast<py::ssize_t>(count); };
@@ -167,12 +167,13 @@ void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
 void define_ensemble(py::module_& module) {
     py::class_<PyEnsemble> ensemble(module, "Ensemble", "Many scenes of one shape, simulated together.");
     ensemble
-        .def(py::init(&make), py::arg("scene"), py::arg("members"), py::kw_only(), py::arg("device") = "",
-             py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("view") = "shaded",
-             py::arg("validate") = false,
-             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
-             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
-             "method. controls: what step() may be given: 'wind', 'pins', 'colliders'. All begin at frame 0.")
+        .def(
+            py::init(&make), py::arg("scene"), py::arg("members"), py::kw_only(), py::arg("device") = "",
+            py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("view") = "shaded",
+            py::arg("validate") = false,
+            "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
+            "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
+            "method. controls: what step() may be given: 'wind', 'pins', 'colliders'. All begin at frame 0.")
         .def("step", &PyEnsemble::step, py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
              py::arg("colliders") = py::none(),
              "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
@@ -205,7 +206,8 @@ void define_ensemble(py::module_& module) {
             "frames",
             [](const PyEnsemble& self) {
                 py::array_t<std::uint32_t> all(static_cast<py::ssize_t>(self.ensemble().size()));
-                for (std::size_t k = 0; k < self.ensemble().size(); ++k) all.mutable_data()[k] = self.ensemble().frame(k);
+                for (std::size_t k = 0; k < self.ensemble().size(); ++k)
+                    all.mutable_data()[k] = self.ensemble().frame(k);
                 return all;
             },
             "uint32 [member]: the frame that each is at.")

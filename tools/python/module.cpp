@@ -1,12 +1,13 @@
 // The library as a Python module, `import drape`: scenes come from files, text or dicts, simulations step with the GIL
 // released, and positions, velocities, normals and pictures are NumPy arrays on the library's own memory.
+#include "module.h"
+
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include "drape/ensemble.h"
-#include "module.h"
 #include "output/frame_writer.h"
 #include "run/failure.h"
 #include "run/run_statistics.h"

@@ -18,8 +18,8 @@ struct GroupedRun {
 /// A group has at most so many runs, each of which has a thread.
 inline constexpr std::size_t most_grouped = 256;
 
-/// Returns whether runs of this scene can share dispatches, and gain by it: its method is named, its cloth neither meets
-/// itself nor is cut nor fills a device alone, and no file has pictures.
+/// Returns whether runs of this scene can share dispatches, and gain by it: its method is named, its cloth neither
+/// meets itself nor is cut nor fills a device alone, and no file has pictures.
 bool can_be_grouped(const RunRequest& request);
 
 /// Returns the runs, in order, in lists of those that go on together. One that goes on alone is in a list of its own.
@@ -32,8 +32,8 @@ struct GroupedEnd {
     std::exception_ptr failure;
 };
 
-/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Throws what keeps the ensemble
-/// from being made.
+/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Throws what keeps the
+/// ensemble from being made.
 void run_group(const std::vector<GroupedRun>& group, const std::function<void(const GroupedEnd&)>& ended);
 
 }  // namespace drape::sweep

@@ -100,8 +100,8 @@ class Pool {
         return said.starts_with("run ") ? said : fmt::format("run {}: {}", index, said);
     }
 
-    /// Returns the runs of a process that have a record now. Those of several that a crash took, of which it is not known
-    /// whose it was, wait to be made alone.
+    /// Returns the runs of a process that have a record now. Those of several that a crash took, of which it is not
+    /// known whose it was, wait to be made alone.
     Group ended(const Group& group, int status, std::deque<Group>& waiting) {
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
         const bool interrupted =

@@ -130,8 +130,7 @@ SweepFolder::SweepFolder(const fs::path& path, const SweepSpec& spec, bool fresh
             fmt::format("'{}' is another sweep's: its specification, scene or program differs", path.string()));
     if (fresh && holds_anything(path_ / "jobs"))
         throw OutputError(fmt::format("'{}' has runs already: --resume goes on with it", path.string()));
-    if (looks_foreign())
-        throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
+    if (looks_foreign()) throw OutputError(fmt::format("'{}' is not empty, and no sweep", path.string()));
     // The file that says whose folder it is comes first: without room for the rest the sweep can still go on.
     make_folder(path_);
     if (!there) write_file(file, text);

@@ -28,7 +28,7 @@ struct EnsembleOptions {
     PictureView view;  ///< of pictures
 };
 
-/// What members are to do in a step, all of them, in order. An empty list leaves that as it is: as the scene has it, or
+/// Members are to do this in a step, all of them, in order. An empty list leaves that as it is: as the scene has it, or
 /// where the last action put it. Numbers are finite.
 struct EnsembleActions {
     std::span<const double> wind;  ///< [member, 3], m/s during the step; its gusts are over
@@ -49,8 +49,8 @@ class ActionError : public Error {
     std::size_t member_;
 };
 
-/// Four floats per particle of one cloth of every member, in the library's memory: they lie there as long as the ensemble
-/// does, and each step, reset and restore changes them.
+/// Four floats per particle of one cloth of every member, in the library's memory: they lie there as long as the
+/// ensemble does, and each step, reset and restore changes them.
 struct MemberArray {
     const float* data = nullptr;
     std::size_t members = 0, rows = 0, columns = 0;
@@ -101,7 +101,7 @@ class Ensemble {
     /// Returns what a member needs to go on from here to the same bits.
     SimulationState save(std::size_t member) const;
     /// Takes members to saved states, one for each, of any member of an ensemble of the same scenes' shape and options.
-    /// Throws Error where one is not such a state, before any member changes.
+    /// Throws Error where one is not such a state; members that share dispatches are then as they were.
     void restore(std::span<const std::size_t> members, std::span<const SimulationState> states);
 
   private:
@@ -109,7 +109,8 @@ class Ensemble {
     std::unique_ptr<Parts> parts_;
 };
 
-/// Frames of an ensemble for simulations that have a thread each (SimulationOptions::member): all of them go on together.
+/// Frames of an ensemble for simulations that have a thread each (SimulationOptions::member): all of them go on
+/// together.
 class EnsembleRun {
   public:
     explicit EnsembleRun(Ensemble ensemble);
