@@ -196,12 +196,22 @@ void add_format_option(CLI::App& command, const std::string& help, std::vector<s
     add_formats(command, help, false, [&formats](const std::vector<std::string>& names) { formats = names; });
 }
 
+namespace {
+constexpr const char* device_help =
+    "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: what the environment variable "
+    "DRAPE_DEVICE says, else a GPU when there is one";
+}  // namespace
+
 void add_device_option(CLI::App& command, std::string& device) {
-    add_option(
-        command, "--device", "DEVICE",
-        "INDEX, UUID, unique part of the NAME, or cpu (`drape devices` lists them); default: what the environment "
-        "variable DRAPE_DEVICE says, else a GPU when there is one",
-        device);
+    add_option(command, "--device", "DEVICE", device_help, device);
+}
+
+void add_devices_option(CLI::App& command, std::vector<std::string>& devices) {
+    command.add_option("--device", devices, std::string(device_help) + "; repeated: processes take them in turn")
+        ->type_name("DEVICE")
+        ->allow_extra_args(false)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_validate_option(CLI::App& command, bool& validate) {

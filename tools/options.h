@@ -62,6 +62,8 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats);
 /// Adds --device.
 void add_device_option(CLI::App& command, std::string& device);
+/// Adds --device, which may be repeated.
+void add_devices_option(CLI::App& command, std::vector<std::string>& devices);
 /// Adds --validate.
 void add_validate_option(CLI::App& command, bool& validate);
 /// SCENE, --set, --device, --validate, --no-skip, --kernels

@@ -21,7 +21,11 @@ namespace drape::cli {
 namespace {
 
 struct SweepOptions {
-    std::string spec, output, device;
+    std::string spec, output;
+    std::vector<std::string> devices;
+    std::string device(std::size_t process = 0) const {
+        return devices.empty() ? std::string() : devices[process % devices.size()];
+    }
     std::vector<std::string> formats{"npz"};
     std::string indices;
     std::uint32_t jobs = 0;
@@ -59,7 +63,7 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     RunRequest request;
     request.scene.path = spec.scene;
     request.scene.overrides = spec.overrides_of(index);
-    request.scene.device = options.device;
+    request.scene.device = options.device();
     request.output = folder.run_folder(index).string();
     request.existing = ExistingFiles::overwrite;
     request.formats = options.formats;
@@ -178,10 +182,11 @@ ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, 
     return runs.worst();
 }
 
-std::vector<std::string> command_of(const SweepOptions& options, const std::vector<std::uint32_t>& indices) {
+std::vector<std::string> command_of(const SweepOptions& options, const std::vector<std::uint32_t>& indices,
+                                    std::size_t process) {
     std::vector<std::string> command{
         "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", fmt::join(indices, ","))};
-    if (!options.device.empty()) command.insert(command.end(), {"--device", options.device});
+    if (!options.devices.empty()) command.insert(command.end(), {"--device", options.device(process)});
     if (options.dataset) command.emplace_back("--dataset");
     command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
     return command;
@@ -197,7 +202,7 @@ ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder)
 /// Returns how many runs a process makes, where they go on together. On a CPU more than some gain nothing, and their
 /// files come late; a GPU has room for many, and a process for each core keeps it fed.
 std::size_t group_size(const SweepOptions& options, std::size_t runs, std::size_t processes) {
-    const bool on_cpu = Device(options.device).info().type == "cpu";
+    const bool on_cpu = Device(options.device()).info().type == "cpu";
     const std::size_t most = on_cpu ? 16 : sweep::most_grouped;
     return std::clamp<std::size_t>((runs + processes - 1) / processes, 1, most);
 }
@@ -222,7 +227,8 @@ ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, cons
                                          : 1);
     // Where every core has a run, a driver's own threads would only be in the way.
     if (runs.processes > 1) setenv("LP_NUM_THREADS", "0", 0);
-    runs.command = [&](const std::vector<std::uint32_t>& indices) { return command_of(options, indices); };
+    std::size_t process = 0;
+    runs.command = [&](const std::vector<std::uint32_t>& indices) { return command_of(options, indices, process++); };
     runs.stop = stop_requested;
     runs.quiet = options.quiet;
     runs.dataset = options.dataset;
@@ -316,7 +322,7 @@ void add_sweep(Program& program) {
              options->collect);
     add_flag(command, "--list", "Print every run's values", options->list);
     add_flag(command, "--count", "Print the number of runs", options->count);
-    add_device_option(command, options->device);
+    add_devices_option(command, options->devices);
     add_flag(command, "-q,--quiet", "No progress", options->quiet);
 }
 
