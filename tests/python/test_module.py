@@ -3,6 +3,7 @@ import gc
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -343,6 +344,17 @@ class Examples(unittest.TestCase):
         said, _ = self.run_example("wind_tunnel.py", "8")
         self.assertEqual(len(said.splitlines()), 3)
         self.assertIn("8 m/s: the free edge is ", said)
+
+    def test_pulled_corners(self):
+        said, _ = self.run_example("pulled_corners.py", "4", "100")
+        self.assertRegex(said, r"4 cloths on .*: 100 steps in .* cloth frames a second")
+        self.assertRegex(said, r"[1-9]\d* episodes ended, \d+ of them at the goal")
+
+    def test_fit_swing(self):
+        said, _ = self.run_example("fit_swing.py", "16", "3")
+        off = [float(each) for each in re.findall(r"the edge is ([\d.]+) mm off", said)]
+        self.assertEqual(len(off), 3)
+        self.assertLess(off[-1], off[0])
 
     def test_heat_map(self):
         said, files = self.run_example("heat_map.py", ROOT / "scenes/cloth_on_sphere.json", "3")

@@ -149,6 +149,31 @@ std::unique_ptr<PyEnsemble> make(const py::object& scene, const py::object& memb
     return std::make_unique<PyEnsemble>(scenes_of(any_scene(scene), members), options, device, validate);
 }
 
+void define_member_states(py::class_<PyEnsemble>& ensemble) {
+    ensemble
+        .def(
+            "reset",
+            [](PyEnsemble& self, const py::object& members) {
+                self.ensemble().reset(members_of(self.ensemble(), members));
+            },
+            py::arg("members") = py::none(), "Takes members (all of them: None) back to frame 0.")
+        .def(
+            "save",
+            [](const PyEnsemble& self, std::size_t member) {
+                check_member(self.ensemble(), member);
+                return state_dict(self.ensemble().save(member));
+            },
+            py::arg("member"), "What the member's next frames depend on: a dict of bytes, for restore().")
+        .def(
+            "restore",
+            [](PyEnsemble& self, const std::vector<std::size_t>& members, const std::vector<py::dict>& states) {
+                std::vector<SimulationState> all;
+                for (const py::dict& state : states) all.push_back(state_of(state));
+                self.ensemble().restore(members, all);
+            },
+            py::arg("members"), py::arg("states"), "Takes members to saved states, one for each; any member's.");
+}
+
 void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
     const auto add = [&](const char* name, MemberArray (Ensemble::*what)(std::size_t) const, const char* help) {
         ensemble.def(
@@ -180,27 +205,6 @@ void define_ensemble(py::module_& module) {
              "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
              "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, in order. "
              "What is not given stays as it is. Raises ActionError, and then no member went on.")
-        .def(
-            "reset",
-            [](PyEnsemble& self, const py::object& members) {
-                self.ensemble().reset(members_of(self.ensemble(), members));
-            },
-            py::arg("members") = py::none(), "Takes members (all of them: None) back to frame 0.")
-        .def(
-            "save",
-            [](const PyEnsemble& self, std::size_t member) {
-                check_member(self.ensemble(), member);
-                return state_dict(self.ensemble().save(member));
-            },
-            py::arg("member"), "What the member's next frames depend on: a dict of bytes, for restore().")
-        .def(
-            "restore",
-            [](PyEnsemble& self, const std::vector<std::size_t>& members, const std::vector<py::dict>& states) {
-                std::vector<SimulationState> all;
-                for (const py::dict& state : states) all.push_back(state_of(state));
-                self.ensemble().restore(members, all);
-            },
-            py::arg("members"), py::arg("states"), "Takes members to saved states, one for each; any member's.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(
             "frames",
@@ -229,6 +233,7 @@ void define_ensemble(py::module_& module) {
         .def_property_readonly("device", [](const PyEnsemble& self) { return self.device().info().name; })
         .def_property_readonly("validation_count",
                                [](const PyEnsemble& self) { return self.device().validation_count(); });
+    define_member_states(ensemble);
     define_member_arrays(ensemble);
 }
 
