@@ -225,13 +225,11 @@ class MembersTogether : public MemberRuns {
 }  // namespace
 
 void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options) {
-    const auto bytes_of = [&](std::size_t some) { return MembersTogether(device, two, some, options).bytes(); };
-    const std::uint64_t both = bytes_of(2), each = both - bytes_of(1), rest = both - 2 * each;
+    const std::uint64_t each = MembersTogether(device, two, two.size(), options).bytes() / two.size();
     const std::uint64_t room = device.budget().limit() - device.budget().used();
-    if (rest + each * count > room)
+    if (each * count > room)
         throw vulkan::VulkanError(fmt::format("{} members need {} MiB, and the device has {} MiB left: {} fit", count,
-                                              (rest + each * count) >> 20, room >> 20,
-                                              room > rest ? (room - rest) / each : 0));
+                                              (each * count) >> 20, room >> 20, room / each));
 }
 
 std::unique_ptr<MemberRuns> run_together(const vulkan::Device& device, Members& members,

@@ -358,8 +358,13 @@ TEST_F(EnsembleTest, MembersOfUnlikeShapeAreRefusedWithTheReason) {
 
 TEST_F(EnsembleTest, TooManyMembersAreRefusedBeforeAnythingIsMade) {
     const std::uint64_t used = library_device().memory_used();
-    const std::vector<SceneDescription> members(3000, scene_of({"/cloths/0/grid=[512,512]"}));
-    EXPECT_THAT(refusal(members), HasSubstr(" fit"));
+    const SceneDescription large = scene_of({"/cloths/0/grid=[512,512]"});
+    const std::string text = refusal(std::vector<SceneDescription>(3000, large));
+    const std::size_t at = text.find("MiB left: ");
+    ASSERT_NE(at, std::string::npos) << text;
+    const auto fit = std::stoul(text.substr(at + 10));
+    EXPECT_GT(fit, 2u) << text;
+    EXPECT_THAT(refusal(std::vector<SceneDescription>(fit + 1, large)), HasSubstr(" fit"));
     EXPECT_EQ(library_device().memory_used(), used);
 }
 

@@ -315,6 +315,10 @@ class Ensembles(Validated):
             drape.Ensemble(sheet(solver={"method": "auto"}), 2, controls=["pins"])
         with self.assertRaisesRegex(ValueError, "controls are"):
             drape.Ensemble(sheet(), 2, controls=["gravity"])
+        with self.assertRaisesRegex(drape.Error, "^an ensemble needs a member$"):
+            drape.Ensemble(sheet(), [])
+        with self.assertRaisesRegex(TypeError, "a dict or a Scene for each"):
+            drape.Ensemble(sheet(), ["cloth"])
         together = self.ensemble(sheet(), 2, controls=["pins"])
         pins = np.zeros((2, 2, 3))
         pins[1, 1, 2] = np.inf

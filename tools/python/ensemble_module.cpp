@@ -26,8 +26,10 @@ std::vector<SceneDescription> scenes_of(const Scene& scene, const py::object& me
         const auto object = py::reinterpret_borrow<py::object>(member);
         if (py::isinstance<Scene>(object))
             scenes.push_back(py::cast<const Scene&>(object).description);
-        else
+        else if (py::isinstance<py::dict>(object))
             scenes.push_back(changed(scene, py::cast<py::dict>(object)).description);
+        else
+            throw py::type_error("members: expected how many, or a list with a dict or a Scene for each");
     }
     return scenes;
 }

@@ -243,8 +243,10 @@ void translate_errors(py::module_& module) {
             std::rethrow_exception(std::move(raised));
         } catch (const ActionError& error) {
             errors->raise(error);
-        } catch (const Error&) {
-            errors->raise(current_failure());
+        } catch (const Error& error) {
+            Failure failure = current_failure();
+            if (failure.code == ExitCode::internal) failure.text = error.what();  // it tells what was asked wrongly
+            errors->raise(failure);
         }
     });
 }
