@@ -183,8 +183,9 @@ std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {
     constexpr std::size_t most_kept = 4;
     Member& member = *parts_->members.at(number);
     auto& all = parts_->pictures;
-    // Pictures keep the paths that a member's colliders had.
-    if (parts_->options.controls.colliders || (all.size() >= most_kept && !all.contains(number))) all.clear();
+    // Pictures keep the paths that a member's pins and colliders had.
+    const EnsembleControls& controls = parts_->options.controls;
+    if (controls.pins || controls.colliders || (all.size() >= most_kept && !all.contains(number))) all.clear();
     std::unique_ptr<Pictures>& pictures = all[number];
     if (!pictures) {
         const ImageSettings& image = member.model.scene.image;

@@ -82,8 +82,9 @@ MemberMotion::MemberMotion(const SimulationModel& model) : wind(model.scene.wind
 void MemberMotion::put_into(SimulationModel& model) const {
     model.scene.wind = wind;
     auto pin = pins.begin();
-    for (ClothModel& cloth : model.cloths)
-        for (DynamicPin& each : cloth.dynamic_pins) each.path = *pin++;
+    for (std::size_t k = 0; k < model.cloths.size(); ++k)
+        for (DynamicPin& each : model.cloths[k].dynamic_pins)
+            model.scene.cloths[k].pins[each.number].path = each.path = *pin++;  // the scene's are drawn
     for (std::size_t k = 0; k < colliders.size(); ++k) {
         model.scene.colliders[k].path = colliders[k];
         for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = colliders[k];
@@ -135,8 +136,10 @@ void act(const EnsembleActions& actions, std::size_t number, Member& member) {
     };
     std::size_t pin = number * pin_count(model);
     for (std::size_t k = 0; k < model.cloths.size(); ++k) {
-        for (DynamicPin& each : model.cloths[k].dynamic_pins)
+        for (DynamicPin& each : model.cloths[k].dynamic_pins) {
             move_next(each.path, actions.pins, pin + each.number, member.pins_acted);
+            model.scene.cloths[k].pins[each.number].path = each.path;
+        }
         pin += model.scene.cloths[k].pins.size();
     }
     for (std::size_t k = 0; k < model.scene.colliders.size(); ++k) {
