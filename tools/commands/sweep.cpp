@@ -5,11 +5,14 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <map>
+#include <mutex>
 #include <thread>
 
 #include "base/printable_text.h"
 #include "ending.h"
 #include "options.h"
+#include "output/atomic_file.h"
 #include "output/output_error.h"
 #include "program.h"
 #include "streams.h"
@@ -84,6 +87,7 @@ class RunsHere {
     /// Makes those of a list that go on together. Returns false where some were stopped.
     bool make(const std::vector<sweep::GroupedRun>& group) {
         begun_ = std::chrono::steady_clock::now();
+        together_ = group.size() > 1;
         if (group.size() == 1) {
             end(run_alone(group.front()));
         } else {
@@ -106,15 +110,25 @@ class RunsHere {
             else
                 runs.push_back({index, request_of(options_, spec_, folder_, index)});
         }
-        if (runs.size() > 1)
-            for (sweep::GroupedRun& run : runs)
-                run.request.message = [index = run.index](const std::string& text) {
-                    print_message(fmt::format("run {}: {}", index, text));
-                };
-        return sweep::groups_of(std::move(runs));
+        std::vector<std::vector<sweep::GroupedRun>> groups = sweep::groups_of(std::move(runs));
+        for (std::vector<sweep::GroupedRun>& group : groups)
+            if (group.size() > 1)
+                for (sweep::GroupedRun& run : group)
+                    run.request.message = [this, index = run.index](const std::string& text) { tell(index, text); };
+        return groups;
     }
 
   private:
+    /// Messages of runs that go on together are mixed; each run's file has its own.
+    void tell(std::uint32_t index, const std::string& text) {
+        const std::scoped_lock lock(mutex_);
+        logs_[index] += printable(text) + "\n";
+        print_message(fmt::format("run {}: {}", index, text));
+    }
+    std::string log_of(std::uint32_t index) {
+        const std::scoped_lock lock(mutex_);
+        return logs_[index];
+    }
     static sweep::GroupedEnd run_alone(const sweep::GroupedRun& run) {
         try {
             return {run.index, run_scene(run.request).complete, nullptr};
@@ -128,6 +142,7 @@ class RunsHere {
     void end(const sweep::GroupedEnd& run) {
         sweep::JobRecord record;
         record.index = run.index;
+        std::string failed;
         if (run.failure) {
             const Failure failure = failure_of(run.failure);
             // A full disk says nothing about the run: without a record --resume runs it again.
@@ -136,18 +151,25 @@ class RunsHere {
             }
             record.exit_code = static_cast<int>(failure.code);
             record.message = failure.text;
-            print_error(fmt::format("run {}: {}", run.index, failure.text));
+            failed = fmt::format("run {}: {}", run.index, failure.text);
+            print_error(failed);
         } else if (!run.complete) {
             if (stopped_.empty()) stopped_ = fmt::format("run {} left no record", run.index);
             return;
         }
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
         try {
+            if (together_) write_log(run.index, failed);
             folder_.write(record, options_.dataset);
         } catch (const OutputError&) {
             return leave_unwritten({run.index, std::current_exception()});
         }
         note(static_cast<ExitCode>(record.exit_code));
+    }
+    /// Leaves what a process of the run's own would say.
+    void write_log(std::uint32_t index, const std::string& failed) {
+        const std::string text = log_of(index) + (failed.empty() ? "" : "drape: " + printable(failed) + "\n");
+        if (!text.empty()) write_file(folder_.log_file(index), text);
     }
     struct Unwritten {
         std::uint32_t index;
@@ -168,6 +190,9 @@ class RunsHere {
     const sweep::SweepSpec& spec_;
     const sweep::SweepFolder& folder_;
     std::chrono::steady_clock::time_point begun_;
+    bool together_ = false;  ///< the runs that are made have files for their messages
+    std::mutex mutex_;
+    std::map<std::uint32_t, std::string> logs_;
     ExitCode worst_ = ExitCode::ok;
     std::string stopped_;                 ///< the first run that was
     std::optional<Unwritten> unwritten_;  ///< the first run with a file that could not be written

@@ -72,7 +72,7 @@ class Pool {
             while (!stopped && !waiting.empty() && running_.size() < runs_.processes) {
                 const Group group = std::move(waiting.front());
                 waiting.pop_front();
-                running_[start(runs_.command(group), folder_.log_file(group.front()))] = group;
+                running_[start(runs_.command(group), log_of(group))] = group;
             }
             if (running_.empty()) break;
             int status = 0;
@@ -100,13 +100,17 @@ class Pool {
         return said.starts_with("run ") ? said : fmt::format("run {}: {}", index, said);
     }
 
+    std::filesystem::path log_of(const Group& group) const {
+        return group.size() == 1 ? folder_.log_file(group.front()) : folder_.log_file(group.front(), group.back());
+    }
+
     /// Returns the runs of a process that have a record now. Those of several that a crash took, of which it is not
     /// known whose it was, wait to be made alone.
     Group ended(const Group& group, int status, std::deque<Group>& waiting) {
         const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
         const bool interrupted =
             code == static_cast<int>(ExitCode::interrupted) || code == static_cast<int>(ExitCode::terminated);
-        const std::string said = last_line(folder_.log_file(group.front()));
+        const std::string said = last_line(log_of(group));
         Group recorded;
         for (const std::uint32_t index : group) {
             auto record = folder_.record(index);
@@ -127,8 +131,9 @@ class Pool {
             recorded.push_back(index);
         }
         std::error_code ignored;
-        if (!recorded.empty() && std::filesystem::file_size(folder_.log_file(group.front()), ignored) == 0)
-            std::filesystem::remove(folder_.log_file(group.front()), ignored);
+        const bool is_read =
+            group.size() > 1 || (!recorded.empty() && std::filesystem::file_size(log_of(group), ignored) == 0);
+        if (is_read) std::filesystem::remove(log_of(group), ignored);
         return recorded;
     }
 

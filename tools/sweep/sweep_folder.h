@@ -49,6 +49,10 @@ class SweepFolder {
 
     std::filesystem::path run_folder(std::uint32_t index) const { return path_ / "runs" / number(index); }
     std::filesystem::path log_file(std::uint32_t index) const { return path_ / "jobs" / (number(index) + ".log"); }
+    /// Messages of a process that makes several runs; the runs' own files have what they say.
+    std::filesystem::path log_file(std::uint32_t first, std::uint32_t last) const {
+        return path_ / "jobs" / (number(first) + "-" + number(last) + ".log");
+    }
     const std::filesystem::path& path() const { return path_; }
 
     std::optional<JobRecord> record(std::uint32_t index) const;
