@@ -90,7 +90,7 @@ class MembersApart : public MemberRuns {
     }
 
   private:
-    /// By MemberValue and cloth.
+    /// It has an array for each MemberValue and cloth.
     using Frame = std::array<std::vector<std::vector<float>>, 3>;
 
     void simulate(std::size_t number, std::uint32_t frame) {

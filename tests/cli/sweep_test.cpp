@@ -98,7 +98,7 @@ TEST_F(Sweep, RunsThatGoOnTogetherHaveTheBytesOfEachAlone) {
     }
 }
 
-/// Whose run it was that ended a process of several is not known: all of them are made again, alone.
+/// It is not known which of several runs ended their process: all of them are made again, alone.
 TEST_F(Sweep, AProcessThatIsKilledCostsNoRun) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 3, "set": {"/time/frames": 1500},
         "vary": {"/cloths/0/areal_density": {"uniform": [0.1, 0.4]}}})");
