@@ -170,12 +170,14 @@ TEST_F(EnsembleTest, OfMembersWhoseCollidersRestBesideOthers) {
 }
 
 TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
-    const std::vector<std::vector<std::string>> kinds = {
+    std::vector<std::vector<std::string>> kinds = {
         {"/solver/method=\"auto\"", "/solver/tolerance_motion=1"},
         {"/cloths/0/self_collision={}"},
-        {"/solver/method=\"relax\"", "/solver/iterations=4", "/solver/tolerance=0.2"},
         {"/cutters=[{\"triangle\": [[-1, 0.7, -1], [1, 0.7, -1], [0, 0.7, 2]], \"active\": [0.02, 0.05]}]"},
         {"/solver/estimate_error=true"}};
+    // On a GPU such small cloth does all of its iterations, and shares them.
+    if (library_device().info().type == "cpu")
+        kinds.push_back({"/solver/method=\"relax\"", "/solver/iterations=4", "/solver/tolerance=0.2"});
     for (const std::vector<std::string>& overrides : kinds) {
         SCOPED_TRACE(overrides.front());
         expect_each_as_alone(drawn(scene_of(overrides), 3, seed), 6, false);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <string>
 #include <vector>
 
 #include "drape/scene_reader.h"
@@ -51,6 +53,19 @@ double distance(const std::vector<float>& a, const std::vector<float>& b) {
 
 SceneDescription scene_of(const char* text) { return parse_scene(text); }
 
+/// Stated errors of the frames asked about lie within a factor of three of the true ones.
+void expect_within_a_factor_of_three(const Motion& own, const Motion& truth,
+                                     std::initializer_list<std::size_t> frames) {
+    for (const std::size_t frame : frames) {
+        const double error = distance(own.positions[frame], truth.positions[frame]);
+        const double stated = own.efforts[frame].position_error;
+        testing::Test::RecordProperty("stated_over_true_at_" + std::to_string(frame), std::to_string(stated / error));
+        EXPECT_GT(stated, error / 3) << frame;
+        EXPECT_LT(stated, error * 3) << frame;
+        EXPECT_FALSE(own.efforts[frame].sensitive);
+    }
+}
+
 using StatedError = test::LibraryTest;
 
 /// A pin drags weightless cloth along and stops: nothing brings an error back. It was stated as a quarter of itself.
@@ -62,14 +77,7 @@ TEST_F(StatedError, OfClothThatIsDraggedAlong) {
                     "pins": [{"at": [4, 1], "path": [{"t": 0}, {"t": 0.3}, {"t": 0.6, "translate": [0.1, 0.07, 0.02]},
                                                      {"t": 0.85, "translate": [0.03, 0.08, -0.08]}]}]}]})");
     const Motion own = motion_of(scene), truth = motion_of(with_line(scene, 256));
-    for (const std::size_t frame : {13, 17, 21, 25, 29}) {
-        const double error = distance(own.positions[frame], truth.positions[frame]);
-        const double stated = own.efforts[frame].position_error;
-        RecordProperty("stated_over_true_at_" + std::to_string(frame), std::to_string(stated / error));
-        EXPECT_GT(stated, error / 3) << frame;
-        EXPECT_LT(stated, error * 3) << frame;
-        EXPECT_FALSE(own.efforts[frame].sensitive);
-    }
+    expect_within_a_factor_of_three(own, truth, {13, 17, 21, 25, 29});
 }
 
 /// Rigid cloth falls and begins to buckle: it was called unpredictable, without an error, though substeps reduce it.
@@ -79,14 +87,7 @@ TEST_F(StatedError, OfRigidClothBeforeItBuckles) {
                     "placement": {"origin": [0, 1, 0], "u": [1, 0, 0], "v": [0, 0, 1]},
                     "pins": [{"corner": "top_left"}, {"corner": "top_right"}]}]})");
     const Motion own = motion_of(scene), truth = motion_of(with_line(scene, 128));
-    for (const std::size_t frame : {6, 12, 18, 24, 30}) {
-        const double error = distance(own.positions[frame], truth.positions[frame]);
-        const double stated = own.efforts[frame].position_error;
-        RecordProperty("stated_over_true_at_" + std::to_string(frame), std::to_string(stated / error));
-        EXPECT_GT(stated, error / 3) << frame;
-        EXPECT_LT(stated, error * 3) << frame;
-        EXPECT_FALSE(own.efforts[frame].sensitive);
-    }
+    expect_within_a_factor_of_three(own, truth, {6, 12, 18, 24, 30});
 }
 
 /// Explicit steps stated nothing, and were off by up to 9 %.
