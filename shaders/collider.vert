@@ -1,6 +1,7 @@
-// Draws colliders as their true shapes, one instance each.
+// Draws colliders as their true shapes, one instance each. MESH takes triangles from a file.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MESH
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"

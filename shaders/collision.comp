@@ -2,11 +2,12 @@
 // the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
 // has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what box_edges.comp left. SUPPORTING
 // keeps the surfaces that particles lie on, for contact between cloths. AFTER_IMPULSES does that too, and goes on from
-// what contact between cloths has made of the displacements on their sheet; it leaves them there as well.
+// what contact between cloths has made of the displacements on their sheet; it leaves them there as well. MESHES has
+// triangle meshes among the colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants HISTORY LED SUPPORTING|AFTER_IMPULSES BUFFERED
+#pragma variants HISTORY LED SUPPORTING|AFTER_IMPULSES MESHES|BUFFERED
 #include "shared/line_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
@@ -131,8 +132,8 @@ uint near_colliders(Strip strip, int begin, int count) {
 /// Returns the rows of a strip that may touch a collider after the early ones.
 uint late_rows(Strip strip) {
     uint rows = 0u;
-    for (int begin = early_collider_count; begin < capsules_end; begin += 32)
-        for (uint near = near_colliders(strip, begin, min(32, capsules_end - begin)); near != 0u; near &= near - 1u) {
+    for (int begin = early_collider_count; begin < COLLIDERS_END; begin += 32)
+        for (uint near = near_colliders(strip, begin, min(32, COLLIDERS_END - begin)); near != 0u; near &= near - 1u) {
             vec4 ball = collider_ball(push.first, begin + findLSB(near), strip.way, push.contact.x);
             for (int k = 0; k < strip.count; ++k) {
                 ivec2 texel = ivec2(strip.column, strip.first + k);
@@ -198,7 +199,7 @@ void main() {
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
-    if (capsules_end > early_collider_count) strip.rows |= late_rows(strip);
+    if (COLLIDERS_END > early_collider_count) strip.rows |= late_rows(strip);
     // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
     // for a particle.
     // For the same reason those that go far are kept for a loop of their own.

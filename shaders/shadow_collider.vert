@@ -1,6 +1,7 @@
-// Draws colliders as the first light sees them.
+// Draws colliders as the first light sees them. MESH takes triangles from a file.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants MESH
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"

@@ -1,14 +1,17 @@
 // This pass takes the statistics of a cloth, with an invocation and a record per statistics_rows particles of a column.
 // A particle answers for the springs whose first particle it is. MASKED takes spring shares and masses from images
-// (holes, cuts). COLLIDING measures contact with the scene's colliders.
+// (holes, cuts). COLLIDING measures contact with the scene's colliders, MESHES too, with triangle meshes among them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants MASKED COLLIDING
+#pragma variants MASKED COLLIDING|MESHES
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/spring.h"
 #include "include/statistics.h"
+#ifdef MESHES
+#define COLLIDING
+#endif
 #ifdef COLLIDING
 #include "include/contacts.h"
 #endif

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/hang.h"
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
 #include "scene/motion.h"
-#include "scene/vectors.h"
 
 namespace drape {
 
@@ -25,7 +25,7 @@ template <int kind>
 using Shape = std::variant_alternative_t<kind, ColliderShape>;
 static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
               std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid> &&
-              std::is_same_v<Shape<glsl::kind_capsule>, Capsule>);
+              std::is_same_v<Shape<glsl::kind_capsule>, Capsule> && std::is_same_v<Shape<glsl::kind_mesh>, Mesh>);
 
 glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
     return {static_cast<float>(m[3 * k]), static_cast<float>(m[3 * k + 1]), static_cast<float>(m[3 * k + 2]),
@@ -44,7 +44,8 @@ float surface_motion(const ColliderPose& change, double reach) {
 
 }  // namespace
 
-glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out) {
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out,
+                                     std::size_t field) {
     const ColliderPose pose = collider_pose(collider, now);
     Vec3 size = shape_geometry(collider.shape).size;
     if (collider.kind() == glsl::kind_plane) size = rotate(pose.rotation, size);
@@ -67,6 +68,10 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
         record.change_y = row(change.rotation, 1, change.center[1]);
         record.change_z = row(change.rotation, 2, change.center[2]);
         record.way_out.w = surface_motion(change, shape_geometry(collider.shape).reach);
+    }
+    if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
+        record.way_out.x = static_cast<float>(field);
+        record.way_out.y = static_cast<float>(mesh->grown);
     }
     return record;
 }
@@ -141,9 +146,12 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
         }
         if (substep == 0 || model.colliders_move)
             for (const std::vector<KeptCollider>& list : model.kept_colliders)
-                for (const auto& [collider, way_out] : list)
-                    inputs.colliders.push_back(
-                        collider_record(collider, start, end, start < way_out.until ? way_out.normal : Vec3{}));
+                for (std::size_t k = 0; k < list.size(); ++k) {
+                    const auto& [collider, way_out] = list[k];
+                    inputs.colliders.push_back(collider_record(collider, start, end,
+                                                               start < way_out.until ? way_out.normal : Vec3{},
+                                                               model.mesh_fields.first(k)));
+                }
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
                 inputs.pins[cloth].push_back(pin_motion(pin, start, end));

@@ -22,8 +22,10 @@ int first_collider(const SimulationModel& model, const ClothModel& cloth, std::u
 /// Returns how many colliders are of each kind or one before it: where the kind ends in the sorted list.
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
-/// Returns what the device knows of a collider at the time `now`, and of its motion since `before`, s.
-glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {});
+/// Returns what the device knows of a collider at the time `now`, and of its motion since `before`, s. `field`: a
+/// mesh's first texel (MeshFields).
+glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {},
+                                     std::size_t field = 0);
 
 struct FrameInputs {
     std::vector<glsl::vec4> wind;                    ///< per member and substep, m/s; empty without wind

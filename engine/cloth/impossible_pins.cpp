@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "cloth/frame_inputs.h"
 #include "scene/collider_pose.h"
 #include "scene/surface_distance.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "cloth/impossible_pins.h"
 #include "scene/collider_pose.h"
 #include "scene/contact_shape.h"
 #include "scene/surface_distance.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -21,6 +21,7 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
     scene.solver = choice.settings;
     add_cloths(cloths_meet(scene) ? start_crossings(scene) : std::vector<StartCrossing>{});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
+    mesh_fields = MeshFields(scene);
     add_colliders();
 }
 
@@ -31,6 +32,7 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       choice(run.choice),
       options(run.options),
       kept_colliders(run.kept_colliders),
+      mesh_fields(run.mesh_fields),
       windy(run.windy),
       colliders_move(run.colliders_move) {
     scene.solver.substeps = substeps;
@@ -45,6 +47,7 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
       asked_tolerance(members.front()->asked_tolerance),
       choice(members.front()->choice),
       options(members.front()->options),
+      mesh_fields(members.front()->mesh_fields),
       windy(members.front()->windy),
       member_count(members.size()) {
     scene.cloths.clear();
@@ -151,7 +154,7 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
 }
 
 std::vector<Compromise> SimulationModel::compromises() const {
-    std::vector<Compromise> all;
+    std::vector<Compromise> all = mesh_fields.compromises(scene);
     if (closed_loop()) return all;  // it judges what its steps do not follow
     for (const ClothModel& cloth : cloths)
         all.insert(all.end(), cloth.scheme.compromises.begin(), cloth.scheme.compromises.end());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cloth/companions.h"
+#include "cloth/mesh_fields.h"
 #include "cloth/self_contact.h"
 #include "scene/overlap.h"
 
@@ -34,6 +35,7 @@ struct SimulationModel {
     /// Contact keeps particles from these (scene/contact_shape.h): the scene's colliders, once for all cloths that it
     /// grows them alike for and that leave them alike.
     std::vector<std::vector<KeptCollider>> kept_colliders;
+    MeshFields mesh_fields;  ///< distances to the colliders that are meshes
     bool windy;
     bool colliders_move = false;   ///< some collider is key-framed: each substep has records of its own
     std::size_t member_count = 1;  ///< scenes that the cloths are of (ClothModel::member)

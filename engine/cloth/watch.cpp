@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/hang.h"
@@ -14,7 +15,6 @@
 #include "scene/collider_pose.h"
 #include "scene/contact_shape.h"
 #include "scene/overlap.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

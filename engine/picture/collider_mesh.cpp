@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/vectors.h"
+#include "mesh/mesh_shape.h"
 #include "scene/collider_pose.h"
-#include "scene/vectors.h"
 
 namespace drape {
 namespace {
@@ -39,6 +40,50 @@ Vec3 tangent(const Vec3& normal) {
     const double length = std::sqrt(dot(result, result));
     for (double& entry : result) entry /= length;
     return result;
+}
+
+/// Returns the normals of a mesh's triangles, as long as twice their areas.
+std::vector<Vec3> face_normals(const MeshShape& mesh) {
+    std::vector<Vec3> normals;
+    for (const auto& [a, b, c] : mesh.triangles()) {
+        const Vec3& first = mesh.vertices()[a];
+        normals.push_back(cross(minus(mesh.vertices()[b], first), minus(mesh.vertices()[c], first)));
+    }
+    return normals;
+}
+
+void append_corners(const MeshShape& mesh, std::vector<glsl::MeshCorner>& corners) {
+    const double crease = std::cos(40 * std::numbers::pi / 180);
+    const std::vector<Vec3> normals = face_normals(mesh);
+    std::vector<std::vector<std::uint32_t>> around(mesh.vertices().size());
+    for (std::uint32_t k = 0; k < normals.size(); ++k)
+        for (const std::uint32_t corner : mesh.triangles()[k]) around[corner].push_back(k);
+    for (std::uint32_t k = 0; k < normals.size(); ++k)
+        for (const std::uint32_t corner : mesh.triangles()[k]) {
+            Vec3 sum{};
+            for (const std::uint32_t other : around[corner])
+                if (dot(normals[k], normals[other]) >= crease * length(normals[k]) * length(normals[other]))
+                    sum = plus(sum, normals[other]);
+            const double size = length(sum);
+            corners.push_back({vec4(mesh.vertices()[corner], 1), vec4(size > 0 ? times(1 / size, sum) : sum, 0)});
+        }
+}
+
+void add_meshes(const std::vector<Collider>& colliders, std::uint32_t instance, std::vector<ColliderDraw>& draws) {
+    std::uint32_t vertex = 0;
+    for (const Collider& collider : colliders) {
+        const Mesh* mesh = std::get_if<Mesh>(&collider.shape);
+        if (!mesh) continue;
+        const auto count = static_cast<std::uint32_t>(3 * mesh->shape->triangles().size());
+        draws.push_back({.kind = glsl::kind_mesh,
+                         .vertex_count = count,
+                         .first_vertex = vertex,
+                         .first_instance = instance++,
+                         .instance_count = 1,
+                         .casts_shadow = true,
+                         .closed = mesh->shape->shell() == 0});
+        vertex += count;
+    }
 }
 
 glsl::ColliderInstance plane_instance(const Collider& collider, const PlaneExtent& extent, double time) {
@@ -107,12 +152,24 @@ std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders,
     for (const int kind : drawing_order) {
         const auto count = static_cast<std::uint32_t>(std::ranges::count(colliders, kind, &Collider::kind));
         if (count == 0) continue;
+        if (kind == glsl::kind_mesh) {
+            add_meshes(colliders, first, draws);
+            first += count;
+            continue;
+        }
         const std::uint32_t around = columns[static_cast<std::size_t>(kind)];
         const auto vertex_count = static_cast<std::uint32_t>(glsl::mesh_vertex_count(kind, static_cast<int>(around)));
-        draws.push_back({kind, around, vertex_count, first, count, kind != glsl::kind_plane});
+        draws.push_back({kind, around, vertex_count, 0, first, count, kind != glsl::kind_plane});
         first += count;
     }
     return draws;
+}
+
+std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders) {
+    std::vector<glsl::MeshCorner> corners;
+    for (const Collider& collider : colliders)
+        if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) append_corners(*mesh->shape, corners);
+    return corners;
 }
 
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,

@@ -19,8 +19,10 @@ struct ColliderDraw {
     int kind = glsl::kind_plane;
     std::uint32_t round_columns = glsl::most_round_columns;
     std::uint32_t vertex_count = 0;
+    std::uint32_t first_vertex = 0;  ///< of a mesh
     std::uint32_t first_instance = 0, instance_count = 0;
     bool casts_shadow = false;
+    bool closed = true;  ///< nobody outside sees its inner side
 };
 
 /// The round mesh of each kind has so many segments (shaders/shared/collider_types.h).
@@ -34,8 +36,12 @@ std::uint32_t round_columns(double radius);
 /// from the camera in a picture of so many rows. It is 0 for a shape that is not round.
 double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height);
 
-/// Returns the kinds that the scene has, those that may hide most first.
+/// Returns the kinds that the scene has, those that may hide most first; each mesh is a draw of its own.
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns);
+
+/// Returns the corners of all meshes, in the order of their draws: three for each triangle. Edges between triangles
+/// that turn by less than 40 degrees look round.
+std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders);
 
 /// Planes, which have no end, are drawn as a square around the point below `center`.
 struct PlaneExtent {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "picture/picture_places.h"
 #include "scene/collider_pose.h"
 #include "scene/motion.h"
 #include "scene/start.h"
-#include "scene/vectors.h"
 
 namespace drape {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/vectors.h"
 #include "picture/picture_places.h"
 #include "scene/collider_pose.h"
 #include "scene/start.h"
-#include "scene/vectors.h"
 
 namespace drape {
 namespace {

@@ -48,6 +48,7 @@ void Pictures::allocate() {
     const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     solver_.upload(*pool_);
+    raster_->upload(*pool_);
     record();
 }
 

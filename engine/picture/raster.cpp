@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <initializer_list>
 
 #include "include/tone.h"
 #include "picture/legend.h"
@@ -12,6 +11,7 @@
 #include "picture/raster_recording.h"
 #include "solver/kernel_choice.h"
 #include "vulkan/api.h"
+#include "vulkan/resources.h"
 
 namespace drape {
 
@@ -22,6 +22,7 @@ using graph::Handle;
 struct RasterPass::Targets {
     Handle frame;
     Handle colliders;    ///< invalid where no body is drawn
+    Handle meshes;       ///< invalid where no mesh is
     Handle heat_colors;  ///< invalid where the view is no heat map
     Handle body_tiles, tiles;
     Handle depth;
@@ -133,6 +134,7 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       resolves_(samples > 1 && !device.samples_in_shaders()),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
+      mesh_corners_(mesh_corners(scene.colliders)),
       shadow_skip_reason_(shadow_skip_reason(scene, options)),
       view_(options.view.kind),
       scale_(strain_scale(options.view, scene)),
@@ -189,18 +191,21 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
     if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
-    state.vertex = {"collider.vert"};
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
-    shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
-        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
-                                  {"round_columns", range.round_columns}};
+        const bool mesh = range.kind == glsl::kind_mesh;
+        state.vertex = {vulkan::variant_name("collider.vert", {{"mesh", mesh}})};
+        shadow_state.vertex = {vulkan::variant_name("shadow_collider.vert", {{"mesh", mesh}})};
+        shadow_state.constants.clear();
+        if (!mesh)
+            shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
+                                      {"round_columns", range.round_columns}};
         state.constants = shadow_state.constants;
         state.constants.insert(state.constants.end(), lit.begin(), lit.end());
         // A body that has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that
         // there the outer side turns the other way.
-        state.cull = range.casts_shadow ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
-        shadow_state.cull = VK_CULL_MODE_FRONT_BIT;
+        state.cull = range.casts_shadow && range.closed ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        shadow_state.cull = range.closed ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
         draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
         if (!shadow || !range.casts_shadow) continue;
         shadow_draws_.push_back(
@@ -250,6 +255,8 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
     if (const std::size_t count = drawn_bodies(0).size(); count > 0)
         targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
+    if (!mesh_corners_.empty())
+        targets.meshes = graph.buffer<glsl::MeshCorner>(meshes_name, mesh_corners_.size(), graph::Lifetime::constant);
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
@@ -291,6 +298,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::vertex_read);
             if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            if (targets.meshes.valid()) setup.read(targets.meshes, Access::vertex_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.indices, Access::index_read);
@@ -300,22 +308,18 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
             attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
         },
-        [this, attachments, cloths, frame = targets.frame, colliders = targets.colliders](graph::PassContext& context) {
+        [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);
             for (const RasterCloth& cloth : cloths) {
                 const bool cut = cloth.cut_vertices.valid();
                 const vulkan::GraphicsPipeline& pipeline = shadow_cloth_.of(cloth);
-                std::vector<graph::Binding> bound{{"frame", frame}, {"position", cloth.position}};
+                std::vector<graph::Binding> bound{{"frame", targets.frame}, {"position", cloth.position}};
                 if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
                 context.bind(pipeline, bound);
                 context.push(pipeline, cloth_push(cloth));
                 draw_cloth(context, cloth.indices, cloth.index_count);
             }
-            for (const Draw& draw : shadow_draws_) {
-                const graph::Binding bound[] = {{"frame", frame}, {"colliders", colliders}};
-                context.bind(*draw.pipeline, bound);
-                draw_colliders(context, draw.range);
-            }
+            draw_bodies(context, targets, shadow_draws_, {{"frame", targets.frame}});
             vkCmdEndRendering(context.commands());
         });
     graph.add_pass(
@@ -368,6 +372,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.frame, Access::vertex_read);
             setup.read(targets.frame, Access::fragment_read);
             if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            if (targets.meshes.valid()) setup.read(targets.meshes, Access::vertex_read);
             if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
             for (const RasterCloth& cloth : cloths) {
@@ -397,11 +402,6 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
                               const std::vector<RasterCloth>& cloths) const {
     std::vector<graph::Binding> shared{{"frame", targets.frame}};
     if (casts_shadow()) shared.push_back({"shadow_rows", targets.shadow_rows});
-    const auto bindings = [&](std::initializer_list<graph::Binding> own) {
-        std::vector<graph::Binding> all = shared;
-        all.insert(all.end(), own);
-        return all;
-    };
     const bool lit = cloth_shaders(view_).lit;
     for (const RasterCloth& cloth : cloths) {
         const vulkan::GraphicsPipeline& pipeline = cloth_.of(cloth);
@@ -415,10 +415,23 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         if (!scale_) context.push(pipeline, cloth_push(cloth));
         draw_cloth(context, cloth.indices, cloth.index_count);
     }
-    for (const Draw& draw : draws_) {
-        context.bind(*draw.pipeline, bindings({{"colliders", targets.colliders}}));
+    draw_bodies(context, targets, draws_, shared);
+}
+
+void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets, const std::vector<Draw>& draws,
+                             const std::vector<graph::Binding>& shared) const {
+    for (const Draw& draw : draws) {
+        std::vector<graph::Binding> bound = shared;
+        bound.push_back({"colliders", targets.colliders});
+        if (draw.range.kind == glsl::kind_mesh) bound.push_back({"mesh_corners", targets.meshes});
+        context.bind(*draw.pipeline, bound);
         draw_colliders(context, draw.range);
     }
+}
+
+void RasterPass::upload(const graph::ResourcePool& pool) const {
+    if (!mesh_corners_.empty())
+        vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(mesh_corners_)));
 }
 
 Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {

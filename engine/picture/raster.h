@@ -65,6 +65,9 @@ class RasterPass {
     /// The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
+    /// Fills what stays the same from frame to frame; call it once for each pool.
+    void upload(const graph::ResourcePool& pool) const;
+
     /// Fills the host inputs of a slot for the picture at `time` (s).
     void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
 
@@ -77,6 +80,7 @@ class RasterPass {
     static constexpr const char* readback_name = "color/readback";
     static constexpr const char* frame_name = "raster/frame";
     static constexpr const char* colliders_name = "raster/colliders";
+    static constexpr const char* meshes_name = "raster/meshes";
     static constexpr const char* heat_colors_name = "raster/heat colors";
     static constexpr const char* body_tiles_name = "raster/tiles of bodies";
     static constexpr const char* tiles_name = "raster/tiles";
@@ -109,6 +113,8 @@ class RasterPass {
     void add_tiles(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     void add_raster(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const;
     graph::Handle add_encoding(graph::Graph& graph, const Targets& targets) const;
+    void draw_bodies(graph::PassContext& context, const Targets& targets, const std::vector<Draw>& draws,
+                     const std::vector<graph::Binding>& shared) const;
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
 
@@ -122,6 +128,7 @@ class RasterPass {
 
     std::vector<Collider> colliders_;
     std::vector<Fixture> fixtures_;
+    std::vector<glsl::MeshCorner> mesh_corners_;
     bool has_floor_ = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;

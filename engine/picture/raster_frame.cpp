@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "cloth/texels.h"
 #include "include/tone.h"
 #include "picture/camera.h"
 #include "picture/picture_places.h"
 #include "scene/collider_pose.h"
-#include "scene/vectors.h"
 
 namespace drape {
 namespace {

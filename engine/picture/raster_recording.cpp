@@ -53,7 +53,7 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 }
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range) {
-    vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, 0, range.first_instance);
+    vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, range.first_vertex, range.first_instance);
 }
 
 }  // namespace drape

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/vectors.h"
+#include "base/vectors.h"
 
 namespace drape {
 

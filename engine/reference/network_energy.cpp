@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "reference/spring_network.h"
 #include "scene/gust.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -40,6 +40,7 @@ class Reduction {
         : state_(state),
           inputs_(inputs),
           colliders_(model.scene.colliders),
+          fields_(model.mesh_fields.data()),
           push_(statistics_push(model, cloth)),
           reference_(statistics_reference(cloth)),
           masses_(mass_shares(cloth)) {}
@@ -96,9 +97,9 @@ class Reduction {
         float deepest = 0.0f;
         for (std::size_t k = 0; k < colliders_.size(); ++k) {
             const ColliderRecord& record = inputs_.colliders[static_cast<std::size_t>(push_.collider_first) + k];
-            const float depth =
-                collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f, 1.0e30f, false)
-                    .depth;
+            const float depth = collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f,
+                                                 1.0e30f, false, fields_)
+                                    .depth;
             deepest = depth > deepest ? depth : deepest;
         }
         return deepest;
@@ -107,6 +108,7 @@ class Reduction {
     const TwinCloth& state_;
     const FrameInputs& inputs_;
     const std::vector<drape::Collider>& colliders_;
+    const vec4* fields_;
     StatisticsPush push_;
     vec4 reference_;
     std::vector<float> masses_;

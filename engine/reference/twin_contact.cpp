@@ -120,7 +120,7 @@ void run_collide(const TwinPlace& where) {
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, recovery, true);
+                                     push.contact.x, push.contact.y, recovery, true, scene.mesh_fields.data());
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;

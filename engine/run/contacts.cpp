@@ -4,12 +4,25 @@
 
 #include "cloth/frame_inputs.h"
 #include "scene/contact_shape.h"
+#include "scene/surface_distance.h"
 
 namespace drape {
 
 namespace glsl {
 #include "include/colliders.h"
 }  // namespace glsl
+
+namespace {
+
+/// Returns a particle's distance to what contact keeps it from, m: to a mesh by its triangles, which need no field.
+float distance_to(const Collider& kept, const glsl::ColliderRecord& record, const glsl::vec3& world,
+                  const glsl::vec3& local) {
+    if (const Mesh* mesh = std::get_if<Mesh>(&kept.shape))
+        return static_cast<float>(exact::shape_distance(*mesh, {local.x, local.y, local.z}));
+    return glsl::collider_surface(kept.kind(), record, world, local, nullptr).distance;
+}
+
+}  // namespace
 
 std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::size_t cloth, double time,
                                             std::span<const float> xyzw) {
@@ -20,14 +33,17 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
     std::vector<float> nearest(touched.size(), reach);
     for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
         const int kind = scene.colliders[number].kind();
-        const glsl::ColliderRecord record = collider_record(contact_shape(shape, scene.colliders[number]), time, time);
+        const Collider kept = contact_shape(shape, scene.colliders[number]);
+        const glsl::ColliderRecord record = collider_record(kept, time, time);
         const glsl::vec3 radii{record.shape.x, record.shape.y, record.shape.z};
         for (std::size_t particle = 0; particle < touched.size(); ++particle) {
             if (xyzw[4 * particle + 3] == 0) continue;
             const glsl::vec3 world{xyzw[4 * particle], xyzw[4 * particle + 1], xyzw[4 * particle + 2]};
             const glsl::vec3 local = glsl::local_point(record, world);
+            // The costly distances are spared where a box about the shape is too far.
             if (kind == glsl::kind_ellipsoid && glsl::beyond_bounds(local, radii, reach)) continue;
-            const float distance = glsl::collider_surface(kind, record, world, local).distance;
+            if (kind == glsl::kind_mesh && glsl::beyond_reach(kind, record, world, reach)) continue;
+            const float distance = distance_to(kept, record, world, local);
             if (distance > nearest[particle]) continue;
             nearest[particle] = distance;
             touched[particle] = static_cast<std::int16_t>(number);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mesh/mesh_shape.h"
 #include "output/kept_frames.h"
 #include "run/frame_sink.h"
 #include "spirv_modules.h"
@@ -41,6 +42,11 @@ std::string key_of(const RunRequest& request, const LoadedScene& scene, const De
     std::vector<std::string> parts{program_version(), scene.hash, device.uuid_text(), device.driver,
                                    device.driver_version};
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
+    for (const Collider& collider : scene.description.colliders)
+        if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
+            parts.push_back(xxh3_128_hex(std::as_bytes(std::span(mesh->shape->vertices()))));
+            parts.push_back(xxh3_128_hex(std::as_bytes(std::span(mesh->shape->triangles()))));
+        }
     const ImageSettings& image = scene.description.image;
     parts.push_back(request.draws() ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
                                     : "arrays");

@@ -5,12 +5,12 @@
 #include <limits>
 #include <set>
 
+#include "base/vectors.h"
 #include "drape/scene_reader.h"
 #include "scene/overlap.h"
 #include "scene/scene_rules.h"
 #include "scene/start.h"
 #include "scene/start_crossings.h"
-#include "scene/vectors.h"
 
 namespace drape {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.h"
+#include "mesh/mesh_shape.h"
 #include "scene/motion.h"
 
 namespace drape {
@@ -28,6 +30,10 @@ ShapeGeometry geometry(const Box& box) {
 }
 ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
     return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
+}
+
+ShapeGeometry geometry(const Mesh& mesh) {
+    return {plus(mesh.position, mesh.shape->middle()), mesh.shape->half_extents(), length(mesh.shape->half_extents())};
 }
 
 /// The capsule's own y axis runs from `from` to `to`.

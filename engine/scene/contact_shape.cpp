@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/mesh_shape.h"
+
 namespace drape {
 
 namespace {
@@ -23,6 +25,7 @@ struct Grow {
     void operator()(Capsule& capsule) const {
         for (double& radius : capsule.radii) radius = grown(radius, lift(radius, covering), thickness);
     }
+    void operator()(Mesh& mesh) const { mesh.grown = grown(0, lift(mesh.shape->inner_radius(), covering), thickness); }
     void operator()(Ellipsoid& ellipsoid) const {
         const double smallest = *std::ranges::min_element(ellipsoid.radii);
         const double share = lift(smallest, covering) / smallest;

@@ -22,8 +22,9 @@ bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders)
 /// for `ContactOf::particles`, planes and boxes. A triangle is outside a ball of radius R if its corners are at least
 /// sqrt(R^2 + c^2) from its centre, c being the covering radius, and a round collider is made of balls: each radius of
 /// a capsule grows by that law. An ellipsoid grows in proportion to how its smallest radius does, because the map that
-/// makes a unit ball of it makes nothing longer than in the ball of that radius. What the thickness keeps clear already
-/// is taken off; where that is enough, it is the collider itself.
+/// makes a unit ball of it makes nothing longer than in the ball of that radius. A mesh grows as a ball of its inner
+/// radius does, so that a ball, rod or torus of triangles is met as its round original; cells may dip into sharper
+/// edges of it. What the thickness keeps clear already is taken off; where that is enough, it is the collider itself.
 Collider contact_shape(const Cloth& cloth, const Collider& collider);
 
 }  // namespace drape

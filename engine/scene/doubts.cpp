@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "scene/held.h"
 #include "scene/scene_rules.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -216,7 +216,7 @@ std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
          "Coulomb coefficient of this side; a pair of surfaces uses the geometric mean."},
         {"rotate", &Collider::rotate, vec3,
          "Degrees, rest pose: Euler angles about x, then y, then z, about the collider's own centre (a plane's: normal "
-         "* offset)."},
+         "* offset, a mesh's: the middle of its bounding box)."},
         {"path", &Collider::path, path,
          "Rigid motion on top of the rest pose, rotating about the collider's own centre (a plane's: normal * offset), "
          "which its translation takes along. Absent: at rest."},
@@ -260,11 +260,6 @@ Value<std::array<double, 2>> equal_radii() {
             [radius](const std::array<double, 2>& radii) { return radius.write(radii[0]); }};
 }
 
-bool check_capsule(const Members& members, Collider&) {
-    if (!members["radius"] || !members["radii"]) return true;
-    return members.object().fail("expected radius or radii, got both");
-}
-
 const Object<Collider> capsule{
     "capsule",
     "A sphere swept along a segment: a rod with round ends. With two radii it tapers; one end inside the other leaves "
@@ -276,6 +271,25 @@ const Object<Collider> capsule{
         {"radii", &Capsule::radii, without_default(two_numbers(positive)), "Metres, at from and at to."},
     }),
     check_capsule, R"("not": {"required": ["radius", "radii"]})"};
+
+const Object<Collider> mesh{
+    "mesh",
+    "A triangle mesh from a file, OBJ, PLY, STL or glTF, of at most 4 million triangles and 256 MiB: the solid body "
+    "that "
+    "a closed surface bounds, parts that overlap being one, or a shell. Contact knows its distance at the points of a "
+    "lattice and interpolates between them. Its centre is the middle of its bounding box.",
+    keys_of<Mesh>({
+        {"file", &Mesh::file, text(), "Its name; a relative one starts where the scene's file lies.",
+         "the name of a file"},
+        {"scale", &Mesh::scale, number(positive), "Metres per unit of the file."},
+        {"position", &Mesh::position, vec3, "Metres: where the file's origin is."},
+        {"shell", &Mesh::shell, optional(number(positive)),
+         "Metres: thickness of a surface that is not closed, half of it on either side."},
+        {"spacing", &Mesh::spacing, optional(number(positive)),
+         "Metres between the points of the lattice. Absent: half of the least distance of particles, or of the shell's "
+         "thickness, and more where that needs over 2 million points."},
+    }),
+    check_mesh};
 
 using Colliders = std::vector<Collider>;
 
@@ -305,6 +319,7 @@ const Object<Colliders> colliders{"colliders",
                                       colliders_of<Box>(box, "Boxes."),
                                       colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."),
                                       colliders_of<Capsule>(capsule, "Capsules."),
+                                      colliders_of<Mesh>(mesh, "Triangle meshes."),
                                   }};
 
 const Object<Cutter> cutter{

@@ -143,6 +143,11 @@ void SceneNode::note_default(const std::string& key, std::string value) const {
     report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
 }
 
+void SceneNode::note_better(const std::string& key, std::string value) const {
+    if (report_->missing == nullptr || report_->document.written(*member(key).value()) == value) return;
+    report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
+}
+
 SceneNode SceneNode::member(std::string_view key) const {
     const bool is_object = value_ != nullptr && value_->isObject();
     return child(is_object ? value_->find(key.data(), key.data() + key.size()) : nullptr, key);
@@ -211,6 +216,8 @@ bool SceneNode::read(std::string& field) const {
     field = value_->asString();
     return true;
 }
+
+std::string SceneNode::beside(const std::string& name) const { return report_->document.beside(name); }
 
 bool SceneNode::fail_expected(std::string_view what) const {
     if (report_->errors.counts_only(offset_)) return false;

@@ -94,6 +94,8 @@ class SceneNode {
     void note_missing(const Definition& definition) const;
     /// Tells the report that a missing key has this default (JSON) here, instead of the published one.
     void note_default(const std::string& key, std::string value) const;
+    /// Tells the report that a member is better written as `value` (JSON), where that is not what it says.
+    void note_better(const std::string& key, std::string value) const;
     /// Returns a member of an object, which is absent where there is none.
     SceneNode member(std::string_view key) const;
 
@@ -113,6 +115,9 @@ class SceneNode {
 
     template <class T>
     bool read_choice(T& field, std::span<const Spelling<T>> spellings) const;
+
+    /// Returns the absolute name of a file that is named here (SceneDocument::beside).
+    std::string beside(const std::string& name) const;
 
     /// Reports "expected <what>, got <what is here>".
     bool fail_expected(std::string_view what) const;

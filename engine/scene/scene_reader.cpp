@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/printable_text.h"
+#include "mesh/mesh_file.h"
 #include "scene/scene_node.h"
 
 namespace drape {
@@ -102,6 +103,8 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
     result.text = std::move(text);
     return result;
 }
+
+void read_file(Mesh& mesh) { mesh.shape = read_mesh(mesh.file, mesh.scale, mesh.shell); }
 
 SceneFailure::SceneFailure(SceneResult result) : Error(failure_text(result)), result_(std::move(result)) {}
 

@@ -14,8 +14,8 @@ namespace {
 /// with defaults of their own.
 class Resolution {
   public:
-    Resolution(std::string_view text, std::span<const std::string> overrides)
-        : text_(text), overrides_(overrides.begin(), overrides.end()) {}
+    Resolution(std::string_view text, std::span<const std::string> overrides, const std::string& file_name)
+        : text_(text), overrides_(overrides.begin(), overrides.end()), file_name_(file_name) {}
 
     std::string run() {
         Reading reading = read();
@@ -37,8 +37,8 @@ class Resolution {
         std::string json;
     };
 
-    Reading read() const {
-        SceneDocument document(text_, "scene");
+    Reading read() {
+        SceneDocument document(text_, file_name_);
         Reading reading;
         if (document.errors().empty()) {
             for (const std::string& each : overrides_) document.apply_override(each);
@@ -58,6 +58,7 @@ class Resolution {
         builder["indentation"] = "";
         builder["commentStyle"] = "None";
         reading.json = Json::writeString(builder, document.root());
+        last_ = std::move(scene);
         return reading;
     }
 
@@ -93,12 +94,15 @@ class Resolution {
     std::vector<std::string> overrides_;
     std::vector<Default> defaults_;
     std::set<std::string> left_out_;
+    std::string file_name_;
+    SceneDescription last_{};  ///< keeps what its files hold, which the next reading then shares
 };
 
 }  // namespace
 
-std::string resolved_scene(std::string_view text, std::span<const std::string> overrides) {
-    return Resolution(text, overrides).run();
+std::string resolved_scene(std::string_view text, std::span<const std::string> overrides,
+                           const std::string& file_name) {
+    return Resolution(text, overrides, file_name).run();
 }
 
 }  // namespace drape

@@ -33,6 +33,9 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
                                                           {"bottom_left", {{0, 1}, {0, 1}}},
                                                           {"bottom_right", {{1, 1}, {1, 1}}}};
 
+bool check_capsule(const Members& members, Collider& collider);
+/// Makes the name of the mesh's file absolute, and reads it.
+bool check_mesh(const Members& members, Collider& collider);
 bool check_wind(const Members& members, Wind& wind);
 bool check_placement(const Members& members, Placement& placement);
 bool check_pin(const Members& members, Pin& pin);

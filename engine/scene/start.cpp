@@ -6,9 +6,9 @@
 #include <limits>
 #include <tuple>
 
+#include "base/vectors.h"
 #include "drape/scene_reader.h"
 #include "scene/random.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.h"
 #include "scene/start.h"
 #include "scene/surface_distance.h"
 #include "scene/triangle_crossings.h"
-#include "scene/vectors.h"
 
 namespace drape {
 

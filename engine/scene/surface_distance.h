@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/vectors.h"
 #include "drape/scene.h"
+#include "mesh/mesh_shape.h"
 #include "scene/collider_pose.h"
-#include "scene/vectors.h"
 
 namespace drape::exact {
 
@@ -92,6 +93,8 @@ inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foo
 }
 
 inline double shape_distance(const Capsule& capsule, const Vec3& local) { return capsule_sweep(capsule, local); }
+
+inline double shape_distance(const Mesh& mesh, const Vec3& local) { return mesh.shape->distance(local) - mesh.grown; }
 
 inline double surface_distance(const Collider& collider, const ColliderPose& pose, const Vec3& x) {
     const Vec3 local = to_local(pose, x);

@@ -40,7 +40,12 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     build_graphs();
     if (options_.next_elsewhere) return;
     allocate_and_record();
+    upload();
+}
+
+void FrameLoop::upload() {
     solver_.upload(*pool_);
+    if (raster_) raster_->upload(*pool_);
 }
 
 std::vector<FrameKind> FrameLoop::kinds() const {
@@ -136,7 +141,7 @@ void FrameLoop::rebuild_resources(const SimulationState& state) {
     attempts_ = {};
     build_graphs();
     allocate_and_record();
-    solver_.upload(*pool_);
+    upload();
     solver_.upload_state(*pool_, state);
 }
 

@@ -155,6 +155,8 @@ class FrameLoop {
     void allocate_and_record();
     void record();
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
+    /// Fills what the device reads and nothing of it writes.
+    void upload();
     void rebuild_resources(const SimulationState& state);
     // These are in loop_state.cpp.
     template <class Archive>

@@ -99,6 +99,8 @@ std::string together_name(const SimulationModel& model, const std::vector<std::s
     return name;
 }
 
+constexpr const char* mesh_fields_name = "mesh fields";
+
 }  // namespace
 
 ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels)
@@ -134,6 +136,12 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
                                           .lifetime = Lifetime::host_input,
                                           .element = &glsl::layout_of<glsl::ColliderRecord>(),
                                           .texels = true});
+    if (!model_.mesh_fields.empty())
+        inputs_.mesh_fields = graph.buffer({.name = mesh_fields_name,
+                                            .byte_count = model_.mesh_fields.texels().size() * sizeof(glsl::vec4),
+                                            .lifetime = Lifetime::constant,
+                                            .element = &glsl::layout_of<glsl::vec4>(),
+                                            .texels = true});
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
     for (Together& together : together_) declare_together(graph, together, needs);
     if (run.self_contact) declare_contact(graph);
@@ -399,6 +407,8 @@ void ClothSolver::upload(const graph::ResourcePool& pool) const {
         sizes.resize(glsl::iteration_size_count);
         vulkan::upload(pool.device(), pool.buffer(name), bytes_of(sizes));
     }
+    if (!model_.mesh_fields.empty() && pool.has(mesh_fields_name))
+        vulkan::upload(pool.device(), pool.buffer(mesh_fields_name), bytes_of(model_.mesh_fields.texels()));
     if (model_.self_contact)
         for (const ContactRow& row : contact_fields())
             for (const std::string& name : names_in_sets([&](StateSet set) { return resource_name(row, set); }))

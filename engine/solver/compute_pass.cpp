@@ -41,6 +41,7 @@ graph::Handle& PassResources::find(std::string_view variable, bool written) {
     if (name == "wind") return inputs.wind;
     if (name == "attempt") return inputs.attempt;
     if (name == "colliders" || name == "collider_texels") return inputs.colliders;
+    if (name == "mesh_fields") return inputs.mesh_fields;
     throw std::logic_error("a shader names '" + name + "', which its pass has not");
 }
 

@@ -71,11 +71,12 @@ struct ContactHandles {
     bool buffered = false;     ///< passes store to the sheet's images through their buffer views
 };
 
-/// The host inputs of the whole scene.
+/// The inputs of the whole scene.
 struct SceneInputs {
-    graph::Handle wind;       ///< a vec4 per substep, m/s
-    graph::Handle colliders;  ///< ColliderRecords, sorted by kind
-    graph::Handle attempt;    ///< closed loops: a SubstepChange per cloth
+    graph::Handle wind;         ///< a vec4 per substep, m/s
+    graph::Handle colliders;    ///< ColliderRecords, sorted by kind
+    graph::Handle mesh_fields;  ///< distances to meshes, as texels (shared/collider_types.h)
+    graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth
 };
 
 /// A scene's motion may be simulated more than once on a device, each time in images of its own.

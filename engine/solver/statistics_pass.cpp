@@ -19,7 +19,9 @@ std::uint32_t partial_count(const Grid& grid) { return grid.columns() * strip_co
 graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
     const std::string module =
-        vulkan::variant_name("statistics.comp", {{"masked", state.masked()}, {"colliding", inputs.colliders.valid()}});
+        vulkan::variant_name("statistics.comp", {{"masked", state.masked()},
+                                                 {"colliding", inputs.colliders.valid() && !inputs.mesh_fields.valid()},
+                                                 {"meshes", inputs.mesh_fields.valid()}});
     const std::vector<graph::PushConstants> each =
         pushes_of(state, model, [&](const ClothModel& cloth) { return statistics_push(model, cloth); });
     graph::Handle own = own_constants(graph, state, module, "statistics", each);

@@ -26,6 +26,9 @@ bool windy(Place p) { return has(p, Field::wind_force); }
 bool second_order(Place p) { return scheme_of(p).second_order; }
 bool after_edges(Place p) { return p.step.after_edges; }
 bool after_impulses(Place p) { return p.step.after_impulses; }
+bool meets_meshes(Place p) { return !p.model.mesh_fields.empty(); }
+/// Few scenes have meshes, which move few particles: modules that store these through buffers would not pay.
+bool collides_buffered(Place p) { return buffered(p) && !meets_meshes(p); }
 bool supporting(Place p) { return p.step.supporting && !p.step.after_impulses; }
 bool keeps_excess(Place p) { return has(p, Field::end_excess); }
 bool comes_home(Place p) { return p.cloth->away; }
@@ -187,11 +190,8 @@ std::vector<StepRow> other_rows() {
         springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, reduced{{"masked", masked}, {"bent", bends}},
         nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-        collide{{"history", second_order},
-                {"led", after_edges},
-                {"supporting", supporting},
-                {"after_impulses", after_impulses},
-                {"buffered", buffered}},
+        collide{{"history", second_order},          {"led", after_edges},     {"supporting", supporting},
+                {"after_impulses", after_impulses}, {"meshes", meets_meshes}, {"buffered", collides_buffered}},
         advance{{"home", comes_home},
                 {"control_home", control_comes_home},
                 {"excess", keeps_excess},

@@ -230,6 +230,7 @@ double size_of(const Plane&) { return 1; }
 double size_of(const Sphere& sphere) { return sphere.radius; }
 double size_of(const Box& box) { return *std::ranges::min_element(box.half_extents); }
 double size_of(const Capsule& capsule) { return std::min(capsule.radii[0], capsule.radii[1]); }
+double size_of(const Mesh& mesh) { return mesh.shape->inner_radius(); }
 double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
 
 /// Returns how far the deepest particle is below the surface that contact keeps (scene/contact_shape.h) with the

@@ -12,6 +12,10 @@ struct MeshVertex {
     vec3 normal;  // any length
 };
 
+#ifdef MESH
+layout(set = 0, binding = 2, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+#endif
+
 /// Corner (0 or 1 along each axis) of vertex 0..5 of a quad's two triangles, counter-clockwise.
 ivec2 quad_corner(int vertex) {
     return ivec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1 : 0, vertex == 2 || vertex == 4 || vertex == 5 ? 1 : 0);
@@ -67,6 +71,10 @@ MeshVertex capsule_vertex(vec3 size, int vertex) {
 }
 
 MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
+#ifdef MESH
+    MeshCorner corner = mesh_corners[vertex];
+    return MeshVertex(corner.position.xyz, corner.normal.xyz);
+#endif
     if (collider_kind == kind_sphere) return ellipsoid_vertex(collider.shape.xxx, vertex);
     if (collider_kind == kind_ellipsoid) return ellipsoid_vertex(collider.shape.xyz, vertex);
     if (collider_kind == kind_capsule) return capsule_vertex(collider.shape.xyz, vertex);

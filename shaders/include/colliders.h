@@ -12,6 +12,21 @@ struct SurfacePoint {
     float distance;  // m, negative inside
 };
 
+// The fields of meshes (shared/collider_types.h). A shader without MESHES has none, and no mesh either.
+#ifdef __cplusplus
+#define WITH_FIELDS , const vec4* fields
+#define FIELDS , fields
+#define FIELD_TEXEL(place) fields[place]
+#define MESHES
+#else
+#define WITH_FIELDS
+#define FIELDS
+#ifdef MESHES
+layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer mesh_fields;
+#define FIELD_TEXEL(place) imageLoad(mesh_fields, place)
+#endif
+#endif
+
 SHARED vec3 local_point(ColliderRecord collider, vec3 world) {
     precise vec3 from_center = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
     precise vec3 local = vec3(collider.pose_x.x, collider.pose_x.y, collider.pose_x.z) * from_center.x +
@@ -146,6 +161,51 @@ SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     return sphere_surface(vec3(local.x, upper ? below_upper : above, local.z), upper ? size.z : size.y);
 }
 
+#ifdef MESHES
+/// Returns a share of the way from a to b.
+SHARED float between(float a, float b, float share) {
+    precise float step = (b - a) * share;
+    precise float sum = a + step;
+    return sum;
+}
+
+/// The distance to a mesh between the samples of its field, by linear interpolation along each axis, and its slope.
+/// Beyond the field the way to it is added, so distances that contact does not ask for are too large there.
+SHARED SurfacePoint mesh_surface(ColliderRecord collider, vec3 local WITH_FIELDS) {
+    int head = int(collider.way_out.x);
+    vec4 lower = FIELD_TEXEL(head), size = FIELD_TEXEL(head + 1);
+    float spacing = lower.w;
+    precise vec3 place = (local - vec3(lower.x, lower.y, lower.z)) / spacing;
+    vec3 last = vec3(size.x - 1.0f, size.y - 1.0f, size.z - 1.0f);
+    vec3 within =
+        vec3(place.x > 0.0f ? place.x : 0.0f, place.y > 0.0f ? place.y : 0.0f, place.z > 0.0f ? place.z : 0.0f);
+    within = vec3(within.x < last.x ? within.x : last.x, within.y < last.y ? within.y : last.y,
+                  within.z < last.z ? within.z : last.z);
+    vec3 cell = vec3(floor(within.x), floor(within.y), floor(within.z));
+    cell = vec3(cell.x < last.x ? cell.x : last.x - 1.0f, cell.y < last.y ? cell.y : last.y - 1.0f,
+                cell.z < last.z ? cell.z : last.z - 1.0f);
+    precise vec3 share = within - cell;
+    precise vec3 off = (place - within) * spacing;
+    int row = int(size.x), layer = row * int(size.y);
+    int first = head + field_head + int(cell.x) + int(cell.y) * row + int(cell.z) * layer;
+    vec4 left = FIELD_TEXEL(first), right = FIELD_TEXEL(first + 1);
+    precise vec4 along_x = vec4(right.x - left.x, right.y - left.y, right.z - left.z, right.w - left.w);
+    vec4 at_x = vec4(between(left.x, right.x, share.x), between(left.y, right.y, share.x),
+                     between(left.z, right.z, share.x), between(left.w, right.w, share.x));
+    float near = between(at_x.x, at_x.y, share.y), far = between(at_x.z, at_x.w, share.y);
+    precise float along_y_near = at_x.y - at_x.x;
+    precise float along_y_far = at_x.w - at_x.z;
+    precise float along_z = far - near;
+    vec3 slope = vec3(between(between(along_x.x, along_x.y, share.y), between(along_x.z, along_x.w, share.y), share.z),
+                      between(along_y_near, along_y_far, share.z), along_z);
+    precise float steepness = sqrt(ordered_dot(slope, slope));
+    precise float distance = between(near, far, share.z) + sqrt(ordered_dot(off, off)) - collider.way_out.y;
+    if (!(steepness > 0.0f)) return SurfacePoint(vec3(0.0f, 1.0f, 0.0f), distance);
+    precise vec3 normal = slope / steepness;
+    return SurfacePoint(normal, distance);
+}
+#endif
+
 struct Contact {
     vec3 displacement;
     float depth;  // m; 0 when there was no contact
@@ -192,13 +252,21 @@ SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     return ellipsoid_surface(local, size);
 }
 
+SHARED SurfacePoint plane_surface(ColliderRecord collider, vec3 world) {
+    vec3 normal = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    precise vec3 from_foot = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+    return SurfacePoint(normal, ordered_dot(from_foot, normal));
+}
+
 /// Signed distance and normal of the collider's surface point nearest to a particle at `world`, which in the collider's
 /// frame is `local`. The normal of a plane is in the world frame, else in the local one.
-SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local) {
+SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local WITH_FIELDS) {
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+#ifdef MESHES
+    if (kind == kind_mesh) return mesh_surface(collider, local FIELDS);
+#endif
     if (kind != kind_plane) return shape_surface(kind, local, size);
-    precise vec3 from_foot = world - vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
-    return SurfacePoint(size, ordered_dot(from_foot, size));
+    return plane_surface(collider, world);
 }
 
 /// Returns whether cloth started in a box, which it then leaves by one face.
@@ -215,8 +283,10 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     return SurfacePoint(normal, distance);
 }
 
-/// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known.
+/// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known, and a mesh may be as thin
+/// as it likes somewhere.
 SHARED float least_half_width(int kind, vec3 size) {
+    if (kind == kind_mesh) return 0.0f;
     float ends = size.y < size.z ? size.y : size.z;
     float least = size.x < ends ? size.x : ends;
     return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;
@@ -254,11 +324,11 @@ SHARED vec3 size_of(ColliderRecord collider) { return vec3(collider.shape.x, col
 /// with room for all rounding of the distance.
 SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
     vec3 local = local_point(collider, now);
+    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     if (kind == kind_plane) {
-        precise float inside = thickness - collider_surface(kind, collider, now, local).distance;
+        precise float inside = thickness - plane_surface(collider, now).distance;
         return !(inside > 0.0f);
     }
-    vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     if (kind == kind_sphere) {
         precise float reach = (size.x + thickness) * 1.0001f;
         precise float squared = reach * reach;
@@ -267,7 +337,7 @@ SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thic
     float widest = size.y > size.z ? size.y : size.z;
     precise float half_length = size.x + widest;
     precise vec3 bound = (kind == kind_capsule ? vec3(widest, half_length, widest) : size) * 1.0001f;
-    precise float reach = thickness * 1.0001f;
+    precise float reach = (kind == kind_mesh ? thickness + collider.way_out.y : thickness) * 1.0001f;
     return beyond_bounds(local, bound, reach);
 }
 
@@ -328,21 +398,26 @@ struct WayIn {
 };
 
 /// Follows a particle from `from` along `way` if it goes far. Of a shape without dents the distance is convex along a
-/// line, so Newton's rounds come to the surface from outside, or see that the line misses it.
-SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness, bool far) {
+/// line, so Newton's rounds come to the surface from outside, or see that the line misses it. Along a mesh's dents each
+/// round goes as far as nothing can be nearer (sphere tracing; Hart, "Sphere Tracing"), to a hundredth of the
+/// thickness.
+SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness,
+                    bool far WITH_FIELDS) {
+    precise float enough = kind == kind_mesh ? thickness * -0.01f : 0.0f;
     WayIn found = WayIn(0.0f, from, SurfacePoint(from, 0.0f), far);
     float share = 0.0f;
     int round = 0;
     bool goes_on = far;
     do {
-        found.by = collider_surface(kind, collider, world, found.at);
+        found.by = collider_surface(kind, collider, world, found.at FIELDS);
         precise float inside = thickness - found.by.distance;
         found.before = round == 0 ? inside : found.before;
-        float slope = ordered_dot(found.by.normal, way);
+        float slope = kind == kind_mesh ? -length_of(way) : ordered_dot(found.by.normal, way);
         precise float next = share + inside / slope;
-        bool outside = far && inside < 0.0f;
+        bool outside = far && inside < enough;
         if (outside && !(slope < 0.0f && next <= 1.0f)) found.comes_in = false;
         goes_on = outside && found.comes_in && next > share && round < 24;
+        if (kind == kind_mesh && outside && !goes_on) found.comes_in = false;
         share = goes_on ? next : share;
         precise vec3 there = from + way * share;
         if (goes_on) found.at = there;
@@ -355,7 +430,7 @@ SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, ve
 /// Shaders call it with a literal kind, so that each loop holds one shape's code alone. If `all_its_way`, a particle
 /// that goes far is held by the plane on which it comes in, else only where it ends counts.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
-                                float friction, float recovery, bool all_its_way) {
+                                float friction, float recovery, bool all_its_way WITH_FIELDS) {
     vec3 now = moved_position(start, displacement);
     vec3 local = local_point(collider, now);
     float length = length_of(displacement), motion = collider.way_out.w;
@@ -364,7 +439,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     Contact none =
         Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
     if (kind == kind_ellipsoid && beyond_bounds(local, size_of(collider), reach)) return none;
-    SurfacePoint found = collider_surface(kind, collider, now, local);
+    if (kind == kind_mesh && !far && beyond_reach(kind, collider, now, thickness)) return none;
+    SurfacePoint found = collider_surface(kind, collider, now, local FIELDS);
     precise float inside = thickness - found.distance;
     if (!(inside > 0.0f) && !far) return none;
     // The overlap at the substep's start is measured where the collider has carried the particle's place since.
@@ -373,7 +449,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     vec3 local_carried = local_point(collider, carried);
     if (far) local_carried = local_at_start(collider, start);
     precise vec3 way = local - local_carried;
-    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far);
+    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far FIELDS);
     if (!(inside > 0.0f) && !in_by.comes_in) return none;
     if (in_by.comes_in) {
         precise float beyond = in_by.by.distance + ordered_dot(in_by.by.normal, local - in_by.at);
@@ -404,6 +480,12 @@ layout(constant_id = 1) const int spheres_end = 0;
 layout(constant_id = 2) const int boxes_end = 0;
 layout(constant_id = 3) const int ellipsoids_end = 0;
 layout(constant_id = 4) const int capsules_end = 0;
+#ifdef MESHES
+layout(constant_id = 5) const int meshes_end = 0;
+#define COLLIDERS_END meshes_end
+#else
+#define COLLIDERS_END capsules_end
+#endif
 layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 
 #endif

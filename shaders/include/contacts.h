@@ -10,7 +10,7 @@ ColliderRecord early_colliders[early_collider_count];
 
 void read_colliders(int first) {
     [[unroll]] for (int i = 0; i < early_collider_count; ++i) {
-        if (i < capsules_end) early_colliders[i] = colliders[first + i];
+        if (i < COLLIDERS_END) early_colliders[i] = colliders[first + i];
     }
 }
 
@@ -24,7 +24,8 @@ int kind_of_collider(int i) {
            : i < spheres_end    ? kind_sphere
            : i < boxes_end      ? kind_box
            : i < ellipsoids_end ? kind_ellipsoid
-                                : kind_capsule;
+           : i < capsules_end   ? kind_capsule
+                                : kind_mesh;
 }
 
 /// Ball about collider i, counted from `first`, that holds where a particle ends that meets it: centre and radius, m,
@@ -35,6 +36,10 @@ vec4 collider_ball(int first, int i, float length, float thickness) {
     float motion = imageLoad(collider_texels, texel + collider_motion_texel).w;
     float reach = length < 0.0f ? thickness : way_reach(kind, size, length, motion, thickness);
     precise float radius = bounding_radius(kind, size) + (reach - thickness);
+    if (kind == kind_mesh) {
+        precise float grown = radius + imageLoad(collider_texels, texel + collider_motion_texel).y;
+        radius = grown;
+    }
     return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
                 imageLoad(collider_texels, texel + 2).w, radius);
 }
@@ -79,6 +84,9 @@ bool near_early(vec3 now, float length, float thickness) {
     EACH_EARLY(NEAR, kind_box, spheres_end, boxes_end)
     EACH_EARLY(NEAR, kind_ellipsoid, boxes_end, ellipsoids_end)
     EACH_EARLY(NEAR, kind_capsule, ellipsoids_end, capsules_end)
+#ifdef MESHES
+    EACH_EARLY(NEAR, kind_mesh, capsules_end, meshes_end)
+#endif
     return near;
 }
 
@@ -106,5 +114,10 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     if (ellipsoids_end < capsules_end) {
         CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     }
+#ifdef MESHES
+    if (capsules_end < meshes_end) {
+        CONTACTS(kind_mesh, capsules_end, meshes_end)
+    }
+#endif
     return Contact(displacement, deepest, normal, grip, led);
 }

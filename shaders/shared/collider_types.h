@@ -14,7 +14,8 @@ const int kind_sphere = 1;
 const int kind_box = 2;
 const int kind_ellipsoid = 3;
 const int kind_capsule = 4;
-const int collider_kind_count = 5;
+const int kind_mesh = 5;
+const int collider_kind_count = 6;
 
 /// A collider at the end of one substep. The rotation's rows are world from local, their w is the centre; `change` is
 /// this pose minus the pose one substep earlier (computed in double on the host, so a collider at rest has exact zeros
@@ -23,10 +24,17 @@ struct ColliderRecord {
     vec4 pose_x, pose_y, pose_z;
     vec4 change_x, change_y, change_z;
     vec4 shape;  // plane: world normal; sphere: radius in x; box: half extents; ellipsoid: radii; capsule, along its y:
-                 // half length, radius at the lower end, at the upper. w: sqrt(friction)
+                 // half length, radius at the lower end, at the upper; mesh: half extents of its bounding box. w:
+                 // sqrt(friction)
     vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in;
-                   // zero: by the nearest one. w: what none of its surface moves farther than in the substep, m
+                   // zero: by the nearest one. Mesh: x: first texel of its field, y: how far outside its surface
+                   // contact takes it, m. w: what none of its surface moves farther than in the substep, m
 };
+
+/// Distances to a mesh (mesh/distance_field.h) as texels: the first sample's place in the mesh's frame and the spacing,
+/// m; the number of samples along x, y, z; then, for every sample, x fastest, then y, then z, it and those one farther
+/// along y, along z, along both, m. Two texels are then a cell.
+const int field_head = 2;
 
 /// The surface that a particle lies on. Contact between cloths needs the whole law of it: told of less, a heap takes
 /// what the floor gives its lowest particles, friction above all, for motion, and never rests.
@@ -42,10 +50,15 @@ struct ColliderInstance {
     vec4 color;
 };
 
+/// A corner of a triangle of a mesh as pictures draw it, in the mesh's frame.
+struct MeshCorner {
+    vec4 position, normal;  // xyz: m; unit
+};
+
 /// Most segments around a round mesh; from pole to pole it has half as many.
 const int most_round_columns = 96;
 
-/// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad.
+/// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad; a mesh from a file has its own.
 SHARED int mesh_vertex_count(int kind, int round_columns) {
     if (kind == kind_plane) return 6;
     if (kind == kind_box) return 36;

@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "scene/vectors.h"
+#include "base/vectors.h"
 #include "support/sheets.h"
 
 namespace drape {

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <random>
 
+#include "base/vectors.h"
 #include "device_run.h"
 #include "gpu_test.h"
-#include "scene/vectors.h"
 #include "simulation/frame_loop.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"

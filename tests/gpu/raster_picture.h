@@ -150,6 +150,7 @@ class Raster : public testing::Test {
         const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph, &plan}};
         const graph::ResourcePool pool(device, plans);
         for (std::size_t i = 0; i < cloths.size(); ++i) fill(device, pool, "cloth" + std::to_string(i), cloths[i]);
+        raster.upload(pool);
         const graph::RecordedPlan recorded(graph, plan, pool, graph::TimestampMode::none);
         vulkan::FrameSlots slots(device);
         std::array<Picture, 2> pictures;

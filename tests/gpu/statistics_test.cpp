@@ -16,6 +16,7 @@
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
 #include "solver/statistics_pass.h"
+#include "support/meshes.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -344,7 +345,8 @@ std::vector<Collider> every_kind() {
             {Sphere{{3.4, 4.9, -2.05}, 0.1}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}}},
             {Box{{3.9, 4.7, -2}, {0.1, 0.02, 0.3}}, 0.3, {0, 0, 30}},
             {Ellipsoid{{3.3, 4.5, -1.95}, {0.2, 0.1, 0.07}}},
-            {Capsule{{3.6, 4.6, -2.1}, {3.8, 4.65, -1.9}, {0.08, 0.04}}}};
+            {Capsule{{3.6, 4.6, -2.1}, {3.8, 4.65, -1.9}, {0.08, 0.04}}},
+            {test::mesh_of(test::torus_mesh(0.1, 0.05, 24), {3.6, 4.6, -2})}};
 }
 
 TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {

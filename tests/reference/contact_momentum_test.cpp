@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <random>
 
+#include "base/vectors.h"
 #include "cloth/simulation_model.h"
 #include "reference/twin.h"
-#include "scene/vectors.h"
 #include "support/self_contact_scenes.h"
 
 namespace drape {

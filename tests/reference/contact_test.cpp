@@ -9,6 +9,7 @@
 #include "reference/kernels.h"
 #include "reference/twin.h"
 #include "scene/surface_distance.h"
+#include "support/meshes.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
 
@@ -276,18 +277,45 @@ TEST(ContactTest, WhatIsBeyondReachIsLeftAsItIs) {
         const bool left_out = far_off || glsl::beyond_reach(collider.kind(), record, now, kept);
         far[static_cast<std::size_t>(collider.kind())] += far_off;
         const glsl::Contact contact =
-            glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f, true);
+            glsl::collider_contact(collider.kind(), record, now, nowhere, kept, 0.5f, 1.0f, true, nullptr);
         ++(left_out ? beyond : near)[static_cast<std::size_t>(collider.kind())];
         if (!left_out) continue;
         ASSERT_EQ(contact.depth, 0.0f) << "kind " << collider.kind() << " at " << at[0] << ", " << at[1] << ", "
                                        << at[2];
         ASSERT_TRUE(contact.displacement.x == 0.0f && contact.displacement.y == 0.0f && contact.displacement.z == 0.0f);
     }
-    for (std::size_t kind = 0; kind < beyond.size(); ++kind) {
+    for (std::size_t kind = 0; kind < glsl::kind_mesh; ++kind) {
         EXPECT_GT(beyond[kind], 1000) << "kind " << kind;
         EXPECT_GT(near[kind], 1000) << "kind " << kind;
         EXPECT_TRUE(kind == glsl::kind_plane || far[kind] > 1000) << "kind " << kind;
     }
+}
+
+/// Bounds leave out what is farther from a mesh than contact reaches, by its triangles' distances.
+TEST(ContactTest, WhatIsBeyondReachOfAMeshIsFarFromIt) {
+    std::mt19937 random(12);
+    const auto uniform = [&](double from, double to) { return std::uniform_real_distribution(from, to)(random); };
+    Mesh mesh = test::mesh_of(test::torus_mesh(0.3, 0.1, 48), {0.1, 0.2, -0.1});
+    mesh.grown = 0.02;
+    const Collider collider{mesh, 0.3, {20, 30, 40}};
+    const glsl::ColliderRecord record = collider_record(collider, 0, 0);
+    const glsl::vec4 ball{
+        record.pose_x.w, record.pose_y.w, record.pose_z.w,
+        glsl::bounding_radius(glsl::kind_mesh, {record.shape.x, record.shape.y, record.shape.z}) + record.way_out.y};
+    int left_out = 0, near = 0;
+    for (int i = 0; i < 30000; ++i) {
+        const Vec3 at{uniform(-0.6, 0.8), uniform(-0.5, 0.9), uniform(-0.8, 0.6)};
+        const glsl::vec3 now{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+        const float thickness = 0.01f;
+        const double distance = exact::surface_distance(collider, 0, at);
+        near += distance < thickness;
+        if (glsl::near_ball(ball, now, now, thickness) && !glsl::beyond_reach(glsl::kind_mesh, record, now, thickness))
+            continue;
+        ++left_out;
+        EXPECT_GT(distance, thickness);
+    }
+    EXPECT_GT(left_out, 10000);
+    EXPECT_GT(near, 1000);
 }
 
 }  // namespace

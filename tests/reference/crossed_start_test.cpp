@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include "base/vectors.h"
 #include "reference/kernels.h"
 #include "reference/twin.h"
-#include "scene/vectors.h"
 #include "support/self_contact_scenes.h"
 
 namespace drape {

@@ -68,7 +68,7 @@ TEST(PassageTest, AParticleThatGoesFarIsHeldOnTheSideThatItCameFrom) {
         const auto way = [&](const glsl::vec3& d) { return plus(vector(from), vector(d)); };
         if (-exact::surface_distance(collider, 0, vector(from)) + thickness > -1e-6) continue;
         const glsl::Contact contact =
-            glsl::collider_contact(collider.kind(), record, from, wanted, kept, 0.5f, 1e-4f, true);
+            glsl::collider_contact(collider.kind(), record, from, wanted, kept, 0.5f, 1e-4f, true, nullptr);
         const double before = thickness - least_on_way(collider, 0, 1, vector(from), way(wanted));
         const double after = thickness - least_on_way(collider, 0, 1, vector(from), way(contact.displacement));
         (contact.depth > 0 ? held : missed) += 1;

@@ -357,6 +357,14 @@ const Malformed collider_cases[] = {
       "3:41: /colliders/capsules/3/center: expected \"from\" and \"to\" (centres of both ends, metres), got the "
       "unknown "
       "key \"center\""}},
+    {"Meshes",
+     scene("\"colliders\": {\"meshes\": [{}, {\"file\": 3},\n{\"file\": \"/there/is/no.obj\"}, {\"file\": "
+           "\"x.obj\", \"scale\": 0}, {\"file\": \"/dev/null\"}]}"),
+     {"2:26: /colliders/meshes/0/file: expected the name of a file, got nothing",
+      "2:39: /colliders/meshes/1/file: expected a string, got 3",
+      "3:10: /colliders/meshes/2/file: cannot read /there/is/no.obj: No such file or directory",
+      "3:58: /colliders/meshes/3/scale: expected a number > 0 (single precision), got 0",
+      "3:71: /colliders/meshes/4/file: cannot read /dev/null: it is not a file"}},
     {"Common",
      scene("\"colliders\": {\"planes\": {}, \"boxes\": [{\"friction\": -1, \"color\": \"red\", \"rotate\": "
            "90}]}"),

@@ -72,6 +72,7 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"box", ".colliders.boxes[0]"},
                                                      {"ellipsoid", ".colliders.ellipsoids[0]"},
                                                      {"capsule", ".colliders.capsules[0]"},
+                                                     {"mesh", ".colliders.meshes[0]"},
                                                      {"cutter", ".cutters[0]"},
                                                      {"solver", ".solver"},
                                                      {"camera", ".camera"},
@@ -182,6 +183,8 @@ TEST(SceneReader, ReadsEveryKeyOfTheFormat) {
 }
 
 // Returns an object of a kind with every default of the schema written out.
+constexpr const char* box_file = DRAPE_SOURCE_DIR "/tests/scene/box.obj";
+
 Json::Value written_defaults(std::string_view object) {
     Json::Value result(Json::objectValue);
     const Json::Value& properties = object_schema(object)["properties"];
@@ -207,6 +210,8 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
     scene["colliders"]["boxes"][0] = written_defaults("box");
     scene["colliders"]["ellipsoids"][0] = written_defaults("ellipsoid");
     scene["colliders"]["capsules"][0] = written_defaults("capsule");
+    scene["colliders"]["meshes"][0] = written_defaults("mesh");
+    scene["colliders"]["meshes"][0]["file"] = box_file;
 
     SceneDescription expected;
     expected.cloths.resize(1);
@@ -214,7 +219,9 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
     expected.cloths[0].pins.resize(1);
     expected.cloths[0].pins[0].particles = {{0, 0}, {0, 1}};
     expected.cloths[0].pins[0].path.keys.resize(1);
-    expected.colliders = {{Plane{}}, {Sphere{}}, {Box{}}, {Ellipsoid{}}, {Capsule{}}};
+    Mesh mesh{.file = box_file};
+    read_file(mesh);
+    expected.colliders = {{Plane{}}, {Sphere{}}, {Box{}}, {Ellipsoid{}}, {Capsule{}}, {mesh}};
     expected.camera = Camera{};
     // Directions are made unit length by the reader; the default lights are not written as such.
     const SceneResult result = read_scene_text(written(scene), "s");
@@ -239,6 +246,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"box", {"path"}},
         {"ellipsoid", {"path"}},
         {"capsule", {"radii", "path"}},
+        {"mesh", {"file", "shell", "spacing", "path"}},
         {"cutter", {"triangle", "active", "path"}},
         {"oracle", {"check"}}};
     for (const Definition* object : scene_objects()) {

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "drape/fabric.h"
 #include "drape/scene_reader.h"
 #include "full_scene.h"
+#include "mesh/mesh_shape.h"
 
 namespace drape {
 namespace {
@@ -93,6 +95,8 @@ TEST(SceneValues, PinsOfTheFullScene) {
 }
 
 TEST(SceneValues, CollidersOfTheFullScene) {
+    Mesh mesh{DRAPE_SOURCE_DIR "/tests/scene/box.obj", 0.5, {1, 2, 3}, 0.25, 0.125};
+    read_file(mesh);
     const auto collider = [](ColliderShape shape, double friction, Vec3 rotate, MotionKey key, double red) {
         return Collider{shape, friction, rotate, {{key}}, {red, 0.1, 0.2}};
     };
@@ -102,8 +106,31 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Box{{0, 0.5, 0}, {0.3, 0.1, 0.2}}, 0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3),
         collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4),
         collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
-        {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}}};
+        {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}},
+        collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6)};
     EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
+}
+
+TEST(SceneValues, FilesLieBesideTheScene) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(::testing::TempDir()) / "drape scenes with meshes";
+    fs::create_directories(folder / "bodies");
+    fs::copy_file(DRAPE_SOURCE_DIR "/tests/scene/box.obj", folder / "bodies" / "box.obj",
+                  fs::copy_options::overwrite_existing);
+    const std::string text =
+        R"({"cloths": [{"grid": [4, 3]}], "colliders": {"meshes": [{"file": "bodies/box.obj", "scale": 0.5}]}})";
+    const std::string path = (folder / "scene.json").string(), body = (folder / "bodies" / "box.obj").string();
+    std::ofstream(path) << text;
+    const SceneDescription scene = load_scene(path);
+    const Mesh& mesh = std::get<Mesh>(scene.colliders.at(0).shape);
+    EXPECT_EQ(mesh.file, body);
+    ASSERT_TRUE(mesh.shape);
+    EXPECT_NEAR(mesh.shape->middle()[0], 0.5, 1e-6);
+    EXPECT_NEAR(mesh.shape->half_extents()[0], 0.15, 1e-6);
+    // Written out, the name holds from everywhere.
+    EXPECT_NE(resolved_scene(text, {}, path).find("\"" + body + "\""), std::string::npos);
+    EXPECT_EQ(parse_scene(resolved_scene(text, {}, path)).colliders, scene.colliders);
+    EXPECT_THROW(parse_scene(text), SceneFailure);
 }
 
 TEST(SceneValues, EveryEdgeAndCorner) {

@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/vectors.h"
 #include "scene/collider_pose.h"
-#include "scene/vectors.h"
 #include "shared/collider_types.h"
 #include "support/sheets.h"
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/vectors.h"
 #include "bench/measure.h"
 #include "cloth/solver_choice.h"
 #include "output/atomic_file.h"
 #include "reference/spring_network.h"
 #include "run/run.h"
-#include "scene/vectors.h"
 
 namespace drape::bench {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/impossible_pins.h"
 #include "cloth/solver_choice.h"
 #include "scene/collider_pose.h"
-#include "scene/vectors.h"
 
 namespace drape::bench {
 

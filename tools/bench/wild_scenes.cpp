@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "base/vectors.h"
 #include "bench/random_scenes.h"
 #include "scene/random.h"
-#include "scene/vectors.h"
 
 namespace drape::bench {
 

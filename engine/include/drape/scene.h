@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +15,11 @@
 #include <vector>
 
 #include "drape/solver_method.h"
+#include "drape/vec3.h"
 
 namespace drape {
 
-using Vec3 = std::array<double, 3>;
+class MeshShape;
 
 /// A value of an enumeration and its word in the scene file.
 template <class T>
@@ -185,14 +187,29 @@ struct Capsule {
     bool operator==(const Capsule&) const = default;
 };
 
+/// A triangle mesh from a file: a solid body, or a shell. The scene reader reads the file; whoever fills this otherwise
+/// calls `read_file` (drape/scene_reader.h).
+struct Mesh {
+    std::string file;             ///< OBJ, PLY, STL or glTF; the reader makes it absolute
+    double scale = 1;             ///< m per unit of the file
+    Vec3 position{0, 0, 0};       ///< m, where the file's origin is
+    std::optional<double> shell;  ///< m: the thickness of a surface that is not closed
+    /// Distances are known at points so far apart, m; default: half of the least distance of particles, or more where
+    /// the field would be too large.
+    std::optional<double> spacing;
+    std::shared_ptr<const MeshShape> shape{};  ///< what was read
+    double grown = 0;                          ///< m: contact takes the surface to be so far outside of it
+    bool operator==(const Mesh&) const = default;
+};
+
 /// The alternatives stand in the order of the collider kinds (shaders/shared/collider_types.h).
-using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid, Capsule>;
+using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid, Capsule, Mesh>;
 /// The scene file has one list per shape, in the same order.
-inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids", "capsules"};
+inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids", "capsules", "meshes"};
 static_assert(std::size(collider_lists) == std::variant_size_v<ColliderShape>);
 
-/// `rotate` and `path` rotate about the collider's own centre (a plane's is the foot point normal * offset); a path is
-/// applied on top of the rest pose.
+/// `rotate` and `path` rotate about the collider's own centre (a plane's is the foot point normal * offset, a mesh's
+/// the middle of its bounding box); a path is applied on top of the rest pose.
 struct Collider {
     ColliderShape shape;
     double friction = 0.3;

@@ -54,17 +54,23 @@ inline constexpr std::uint64_t scene_particle_limit = 16'000'000;
 /// anything in the file or in an override.
 SceneResult read_scene(const std::string& path, std::span<const std::string> overrides = {});
 
-/// Reads a scene's text that is already in memory; `file_name` only says where errors are.
+/// Reads a scene's text that is already in memory; `file_name` says where errors are. Files that a scene names are
+/// looked for beside it, or in the working directory where it is no file.
 SceneResult read_scene_text(std::string_view text, const std::string& file_name,
                             std::span<const std::string> overrides = {});
+
+/// Reads a mesh's file. Throws an Error without a place.
+void read_file(Mesh& mesh);
 
 /// Return what `read_scene` or `read_scene_text` reads, or throw SceneFailure.
 SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides = {});
 SceneDescription parse_scene(std::string_view text);
 
-/// Returns the JSON of a scene that can be read, with its overrides applied and every missing key that has a published
-/// default written out, so that it says the same when defaults change. Throws SceneFailure.
-std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {});
+/// Returns the JSON of a scene that can be read, with its overrides applied, every missing key that has a published
+/// default written out and names of files made absolute, so that it says the same when defaults change. Throws
+/// SceneFailure.
+std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {},
+                           const std::string& file_name = "scene");
 
 /// Returns the published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
 std::string scene_schema();

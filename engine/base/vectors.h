@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "drape/scene.h"
+#include "drape/vec3.h"
 
 namespace drape {
 

@@ -1,0 +1,43 @@
+// The distances to a scene's meshes as devices read them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "drape/compromise.h"
+#include "drape/scene.h"
+#include "mesh/distance_field.h"
+#include "shared/collider_types.h"
+
+namespace drape {
+
+class MeshFields {
+  public:
+    MeshFields() = default;
+    /// Takes the colliders of a scene, sorted by kind. Throws Error where the fields are too large together or a mesh
+    /// was not read.
+    explicit MeshFields(const SceneDescription& scene);
+
+    bool empty() const { return !texels_; }
+    /// Returns them as texels (shared/collider_types.h).
+    const std::vector<glsl::vec4>& texels() const { return *texels_; }
+    const glsl::vec4* data() const { return texels_ ? texels_->data() : nullptr; }
+    /// Returns the first texel of a collider's field; 0 for what is no mesh.
+    std::size_t first(std::size_t collider) const { return collider < first_.size() ? first_[collider] : 0; }
+    /// Returns what of the meshes their fields are too coarse for. `scene`: the one that they were made of.
+    std::vector<Compromise> compromises(const SceneDescription& scene) const;
+
+  private:
+    struct FieldSpacing {
+        std::size_t collider;    ///< index in the scene's list, which is sorted by kind
+        double wanted, spacing;  ///< m
+        double thickness;        ///< m: of the body's thickest part, or of a shell
+    };
+
+    std::shared_ptr<const std::vector<glsl::vec4>> texels_;
+    std::vector<std::size_t> first_;
+    std::vector<FieldSpacing> spacings_;
+};
+
+}  // namespace drape
