@@ -67,8 +67,11 @@ TEST(Report, OfARunAndOfTwoSideBySide) {
     EXPECT_THAT(both.out, AllOf(HasSubstr("4 pictures; "), HasSubstr("A kinetic; "), HasSubstr("B kinetic; ")));
     EXPECT_THAT(read_text(folder / "both.html"),
                 AllOf(HasSubstr("This run drew no pictures."), HasSubstr("--end 99 is clamped"),
-                      HasSubstr("no crossing in any substep"),
+                      HasSubstr("no crossing in any substep"), HasSubstr("class ClothMesh"),
                       HasSubstr("<tr><th>solver.substeps</th><td>4</td><td>8</td></tr>")));
+    // No view in 3-D, and not what draws it.
+    EXPECT_THAT(read_text(folder / "out/report.html"),
+                AllOf(HasSubstr("--export npz"), Not(HasSubstr("class ClothMesh"))));
     EXPECT_EQ(run({"report", "out", "-o", "-"}).out, read_text(folder / "out/report.html"));
 }
 

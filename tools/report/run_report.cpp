@@ -296,9 +296,11 @@ std::string report_html(const std::vector<RunFolder>& runs, const ReportOptions&
     };
     html += section("Times", runs, once_finished(times));
     html += section("Settings", runs, once_finished(settings));
-    return page_of(title, html,
-                   std::string("<script>//<![CDATA[") + script + "//]]></script>\n<script>//<![CDATA[\n" +
-                       space_script() + "//]]></script>\n");
+    std::string scripts = std::string("<script>//<![CDATA[") + script + "//]]></script>\n";
+    // Libraries that draw in 3-D are most of a small page, so that they come with a view alone.
+    if (html.find("<div class=\"space\"") != std::string::npos)
+        scripts += "<script>//<![CDATA[\n" + space_script() + "//]]></script>\n";
+    return page_of(title, html, scripts);
 }
 
 }  // namespace drape::report
