@@ -212,7 +212,7 @@ const openSpaces = () => {
       space.open();
       spaces.push(space);
     } catch (error) {
-      element.textContent = `Nothing is shown in 3-D here: ${error.message}. The pictures below show the run.`;
+      element.textContent = `Nothing is shown in 3-D here: ${error.message.replace(/\.$/, '')}. The pictures below show the run.`;
     }
   }
   // All are played together, at the speed of the first.
