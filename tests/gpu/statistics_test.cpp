@@ -339,7 +339,6 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValuesAndExtremesAreNamed) 
     for (const auto& [name, value] : values) EXPECT_TRUE(std::isfinite(value)) << name;
 }
 
-/// Returns a collider of every kind, one of them key-framed.
 std::vector<Collider> every_kind() {
     return {{Plane{{0, 1, 0}, 4.3}},
             {Sphere{{3.4, 4.9, -2.05}, 0.1}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}}},
@@ -359,8 +358,7 @@ TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {
             const SimulationModel model(scene);
             const TwinCloth state = Twin(model).cloth(0);
             const auto statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state, frame));
-            ASSERT_TRUE(statistics.penetration.has_value());
-            EXPECT_GT(*statistics.penetration, 0.003) << "kind " << kind;
+            EXPECT_GT(statistics.penetration.value(), 0.003) << "kind " << kind;
         }
 }
 

@@ -116,11 +116,15 @@ Array load_array(const std::filesystem::path& path) {
     return read_array(read, size, path.string());
 }
 
+std::string array_name(const std::string& part) {
+    return part.ends_with(".npy") ? part.substr(0, part.size() - 4) : part;
+}
+
 /// Reads an array of an archive.
 Array load_part(zip_t* archive, zip_uint64_t index, const std::filesystem::path& path) {
     zip_stat_t stat;
     zip_stat_index(archive, index, 0, &stat);
-    std::string name = stat.name;
+    const std::string name = stat.name;
     const std::string where = path.string() + "', '" + name;
     const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive, index, 0), zip_fclose);
     if (!file) throw unreadable(where, zip_strerror(archive));
@@ -130,11 +134,12 @@ Array load_part(zip_t* archive, zip_uint64_t index, const std::filesystem::path&
         return static_cast<std::size_t>(got);
     };
     Array array = read_array(read, stat.size, where);
-    array.name = name.ends_with(".npy") ? name.substr(0, name.size() - 4) : name;
+    array.name = array_name(name);
     return array;
 }
 
-std::vector<Array> load_archive(const std::filesystem::path& path) {
+std::vector<Array> load_archive(const std::filesystem::path& path,
+                                const std::function<bool(std::string_view)>& is_wanted) {
     int code = 0;
     const std::unique_ptr<zip_t, void (*)(zip_t*)> archive(zip_open(path.c_str(), ZIP_RDONLY, &code), zip_discard);
     if (!archive) {
@@ -145,8 +150,12 @@ std::vector<Array> load_archive(const std::filesystem::path& path) {
         throw unreadable(path.string(), why);
     }
     std::vector<Array> arrays;
-    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i)
-        arrays.push_back(load_part(archive.get(), static_cast<zip_uint64_t>(i), path));
+    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i) {
+        const auto index = static_cast<zip_uint64_t>(i);
+        const char* part = zip_get_name(archive.get(), index, 0);
+        if (!is_wanted || is_wanted(array_name(part ? part : "")))
+            arrays.push_back(load_part(archive.get(), index, path));
+    }
     std::ranges::sort(arrays, {}, &Array::name);
     return arrays;
 }
@@ -177,8 +186,9 @@ std::string Array::place(std::size_t index) const {
     return fmt::format("({})", fmt::join(indices, ", "));
 }
 
-std::vector<Array> load_arrays(const std::filesystem::path& path) {
-    if (path.extension() == ".npz") return load_archive(path);
+std::vector<Array> load_arrays(const std::filesystem::path& path,
+                               const std::function<bool(std::string_view)>& is_wanted) {
+    if (path.extension() == ".npz") return load_archive(path, is_wanted);
     std::vector<Array> one;
     one.push_back(load_array(path));
     return one;

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace drape::compare {
@@ -25,7 +27,9 @@ struct Array {
     std::string place(std::size_t index) const;
 };
 
-/// Returns the one array of an NPY file, or those of an NPZ archive by name. Throws OutputError naming the file.
-std::vector<Array> load_arrays(const std::filesystem::path& path);
+/// Returns the one array of an NPY file, or those of an NPZ archive by name; of the archive only those whose names are
+/// wanted, where it is said. Throws OutputError naming the file.
+std::vector<Array> load_arrays(const std::filesystem::path& path,
+                               const std::function<bool(std::string_view)>& is_wanted = {});
 
 }  // namespace drape::compare

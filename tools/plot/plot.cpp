@@ -99,10 +99,20 @@ class Drawing {
             return std::ranges::find(curve.doubtful, true) != curve.doubtful.end();
         });
         if (any_doubtful) svg += svg_text(right, height - 14, "hollow: time doubtful", "text-anchor=\"end\"");
+        if (!plot_.logarithmic) svg += cursor();
         return svg + "</svg>\n";
     }
 
   private:
+    /// An empty group, which says where on the axis a page's script may mark a place.
+    std::string cursor() const {
+        return fmt::format(
+            "<g class=\"cursor\" data-left=\"{}\" data-right=\"{}\" data-first=\"{}\" data-last=\"{}\" "
+            "data-top=\"{:.1f}\" "
+            "data-bottom=\"{:.1f}\"></g>\n",
+            left, right, x_.first, x_.last, y_.end, y_.begin);
+    }
+
     /// Names side by side, in as many rows as it takes.
     void place_legend() {
         double x = left, y = legend_top;

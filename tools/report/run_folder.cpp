@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
 
+#include "output/json_file.h"
 #include "output/manifest.h"
 #include "output/png.h"
+#include "output/png_sequence.h"
 
 namespace drape::report {
 
@@ -55,15 +60,57 @@ std::vector<std::uint8_t> shrunk(const Picture& picture, std::uint32_t width, st
     return rgba;
 }
 
+/// A picture's text is its run's key, "frame", its number, and its statistics as JSON.
+Json::Value statistics_in(const Picture& picture, std::uint64_t frame) {
+    const std::size_t begin = std::min(picture.text.find('{'), picture.text.size());
+    const Json::Value values = parse_json(picture.text.substr(begin)).value_or(Json::Value());
+    Json::Value statistics(Json::objectValue);
+    for (const std::string& name : values.isObject() ? values.getMemberNames() : Json::Value::Members{})
+        if (values[name].isNumeric()) statistics[name] = values[name];
+    statistics["frame"] = Json::UInt64{frame};
+    return statistics;
+}
+
+/// Returns what the pictures of a run without a manifest tell; nothing where there are none.
+std::optional<RunFolder> read_unfinished(const fs::path& path) {
+    std::map<std::uint64_t, std::string> pictures;
+    std::error_code error;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (is_frame_file_name(name)) pictures[std::strtoull(name.c_str() + name.find('_') + 1, nullptr, 10)] = name;
+    }
+    if (pictures.empty()) return std::nullopt;
+    RunFolder run{.path = path, .manifest = {}, .files = {}, .pictures = {}, .is_finished = false};
+    for (const auto& [frame, name] : pictures) {
+        run.manifest["statistics"].append(statistics_in(read_png(path / name), frame));
+        run.pictures.push_back(name);
+    }
+    run.files = run.pictures;
+    run.manifest["status"] = "not finished";
+    run.manifest["warnings"].append(
+        fmt::format("{} is not there: the run goes on, or was killed and goes on with --resume. It has drawn {} "
+                    "pictures, frames {} to {}.",
+                    manifest_file_name, pictures.size(), pictures.begin()->first, pictures.rbegin()->first));
+    run.manifest["frames"]["step"] = 1;
+    run.manifest["frames"]["end"] = Json::UInt64{pictures.rbegin()->first};
+    return run;
+}
+
 }  // namespace
 
 RunFolder read_run_folder(const fs::path& path) {
-    if (!fs::exists(path / manifest_file_name))
-        throw OutputError(fmt::format("'{}' has no {}: no finished run is there", path.string(), manifest_file_name));
-    RunFolder run{path, read_manifest(path), {}};
+    if (!fs::exists(path / manifest_file_name)) {
+        if (std::optional<RunFolder> run = read_unfinished(path)) return std::move(*run);
+        throw OutputError(
+            fmt::format("'{}' has no {} and no pictures: no run is there, or none that has drawn anything",
+                        path.string(), manifest_file_name));
+    }
+    RunFolder run{path, read_manifest(path), {}, {}, true};
     for (const Json::Value& entry : run.manifest["files"]) {
         const std::string name = entry["name"].asString();
-        if (is_plain_file_name(name) && name.ends_with(".png") && fs::exists(path / name)) run.pictures.push_back(name);
+        if (!is_plain_file_name(name) || !fs::exists(path / name)) continue;
+        run.files.push_back(name);
+        if (name.ends_with(".png")) run.pictures.push_back(name);
     }
     return run;
 }
@@ -76,6 +123,13 @@ std::string small_picture(const fs::path& file, std::uint32_t width) {
     std::vector<std::uint8_t> png;
     encode_png(columns, rows, shrunk(picture, columns, rows), png);
     return base64(png);
+}
+
+std::vector<std::size_t> evenly_chosen(std::size_t count, std::size_t most) {
+    std::vector<std::size_t> numbers;
+    const std::size_t wanted = std::min(count, std::max<std::size_t>(most, 1));
+    for (std::size_t i = 0; i < wanted; ++i) numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
+    return numbers;
 }
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {

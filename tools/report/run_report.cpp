@@ -10,27 +10,12 @@
 #include "output/json_text.h"
 #include "output/xml_text.h"
 #include "plot/plot.h"
+#include "report/page.h"
+#include "report/space.h"
 
 namespace drape::report {
 
 namespace {
-
-constexpr const char* style = R"css(
-body { font: 15px/1.45 system-ui, sans-serif; margin: 0; color: #1c1e21; background: #f4f5f7; }
-main { max-width: 1240px; margin: 0 auto; padding: 1.2rem; }
-section { background: #fff; border: 1px solid #dfe2e6; border-radius: 8px; padding: .8rem 1.1rem; margin: 0 0 1rem; }
-h1 { font-size: 1.5rem; margin: .2rem 0 .8rem; } h2 { font-size: 1.1rem; margin: .2rem 0 .6rem; }
-.runs { display: grid; grid-template-columns: repeat(auto-fit, minmax(400px, 1fr)); gap: 1rem; }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); gap: .6rem; }
-.sheet { display: grid; grid-template-columns: repeat(4, 1fr); gap: 4px; }
-.sheet .between { display: none; } .player { max-width: 760px; }
-.sheet figure { margin: 0; } .sheet img, .player img { width: 100%; display: block; border-radius: 3px; }
-figcaption { font-size: .75rem; color: #5a6068; } svg { width: 100%; height: auto; }
-table { border-collapse: collapse; } td, th { text-align: left; padding: .15rem .9rem .15rem 0; vertical-align: top; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; } th { font-weight: 600; }
-.player input { width: 55%; vertical-align: middle; } .good { color: #08703f; } .bad { color: #b3261e; font-weight: 600; }
-pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; margin: .2rem 0; }
-)css";
 
 constexpr const char* script = R"js(
 const players = document.querySelectorAll('.player');
@@ -172,29 +157,22 @@ std::string times(const RunFolder& run) {
     return html + "</table>\n";
 }
 
-/// Numbers of the pictures that the page holds, evenly spread, the first and the last among them.
-std::vector<std::size_t> chosen(std::size_t count, std::size_t most) {
-    std::vector<std::size_t> numbers;
-    const std::size_t wanted = std::min(count, std::max<std::size_t>(most, 1));
-    for (std::size_t i = 0; i < wanted; ++i) numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
-    return numbers;
-}
-
 constexpr std::size_t sheet_pictures = 12;
 
 std::string pictures(const RunFolder& run, std::size_t id, const ReportOptions& options) {
     if (run.pictures.empty()) return "<p>This run drew no pictures.</p>\n";
-    const std::vector<std::size_t> numbers = chosen(run.pictures.size(), options.frames);
+    const std::vector<std::size_t> numbers = evenly_chosen(run.pictures.size(), options.frames);
     const Json::Value& frames = run.manifest["frames"];
     const double spacing = static_cast<double>(run.pictures.size()) / static_cast<double>(numbers.size()) *
-                           frames["step"].asDouble() / std::max(frames["fps"].asDouble(), 1e-3);
+                           frames["step"].asDouble() /
+                           (run.is_finished ? std::max(frames["fps"].asDouble(), 1e-3) : 25.0);
     std::string html = fmt::format(
         "<div class=\"player\" data-frames=\"frames{}\" data-seconds=\"{:.4f}\">\n<img alt=\"\"/>\n"
         "<button type=\"button\">Play</button> <input type=\"range\" min=\"0\" max=\"{}\" value=\"0\"/> "
         "<output></output>\n</div>\n<h2>Contact sheet</h2>\n<div class=\"sheet\" id=\"frames{}\">\n",
         id, spacing, numbers.size() - 1, id);
     // All are in the player; the sheet shows some.
-    const std::vector<std::size_t> shown = chosen(numbers.size(), sheet_pictures);
+    const std::vector<std::size_t> shown = evenly_chosen(numbers.size(), sheet_pictures);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::string name = xml_text(run.pictures[numbers[i]]);
         const bool between = std::ranges::find(shown, i) == shown.end();
@@ -206,7 +184,9 @@ std::string pictures(const RunFolder& run, std::size_t id, const ReportOptions& 
     return html + "</div>\n";
 }
 
-double seconds_of(const RunFolder& run, const Json::Value& frame) {
+/// The frame's time, s; of a run that is not finished, whose frame rate is not known, its number.
+double time_of(const RunFolder& run, const Json::Value& frame) {
+    if (!run.is_finished) return frame.asDouble();
     return frame.asDouble() / std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3);
 }
 
@@ -237,20 +217,25 @@ plot::Curve curve(const RunFolder& run, const std::string& name, const Line& lin
         double worst = -INFINITY;
         for (const std::string& member : frame.getMemberNames())
             if (member == line.key || member.ends_with(of_a_cloth)) worst = std::max(worst, frame[member].asDouble());
-        if (worst > -INFINITY) result.points.push_back({seconds_of(run, frame["frame"]), worst * line.factor});
+        if (worst > -INFINITY) result.points.push_back({time_of(run, frame["frame"]), worst * line.factor});
     }
     return result;
 }
 
-std::string plot_section(const std::vector<RunFolder>& runs) {
+/// Returns the plots over time, by their titles, in the order of `lines`; runs share them.
+std::vector<std::pair<std::string, std::string>> plots_of(const std::vector<RunFolder>& runs) {
     double last = 0;
-    for (const RunFolder& run : runs) last = std::max(last, seconds_of(run, run.manifest["frames"]["end"]));
-    std::string html = "<section>\n<h2>Over time</h2>\n<div class=\"plots\">\n";
+    for (const RunFolder& run : runs) last = std::max(last, time_of(run, run.manifest["frames"]["end"]));
+    std::vector<std::pair<std::string, std::string>> plots;
     for (const Line *first = lines, *end = first; first != std::end(lines); first = end) {
         end = std::find_if(first, std::end(lines),
                            [&](const Line& line) { return line.plot != std::string(first->plot); });
-        plot::Plot drawing{
-            .title = first->plot, .x_label = "s", .y_label = first->unit, .logarithmic = false, .x_last = last};
+        const bool in_frames = std::ranges::any_of(runs, [](const RunFolder& run) { return !run.is_finished; });
+        plot::Plot drawing{.title = first->plot,
+                           .x_label = in_frames ? "frame" : "s",
+                           .y_label = first->unit,
+                           .logarithmic = false,
+                           .x_last = last};
         for (std::size_t i = 0; i < runs.size(); ++i)
             for (const Line* line = first; line != end; ++line) {
                 const std::string run = runs.size() == 1 ? "" : i == 0 ? "A " : "B ";
@@ -258,9 +243,25 @@ std::string plot_section(const std::vector<RunFolder>& runs) {
                     curve(runs[i], run + line->name, *line, static_cast<std::size_t>(line - first), i > 0);
                 if (!one.points.empty()) drawing.curves.push_back(std::move(one));
             }
-        if (!drawing.curves.empty()) html += "<div>" + plot::svg_of(drawing) + "</div>\n";
+        if (!drawing.curves.empty()) plots.emplace_back(first->plot, plot::svg_of(drawing));
     }
+    return plots;
+}
+
+std::string plot_section(const std::vector<RunFolder>& runs) {
+    std::string html = "<section>\n<h2>Over time</h2>\n<div class=\"plots\">\n";
+    for (const auto& [title, svg] : plots_of(runs)) html += "<div>" + svg + "</div>\n";
     return html + "</div>\n</section>\n";
+}
+
+/// The view, beside strain and errors over time where there is room, which is with one run.
+std::string space_beside_plots(const std::vector<RunFolder>& runs, std::size_t id, double megabytes) {
+    std::string view = space_view(runs[id], id, megabytes);
+    if (runs.size() > 1 || !view.starts_with("<div")) return view;
+    std::string html = "<div class=\"beside\">\n<div>\n" + view + "</div>\n<div>\n";
+    for (const auto& [title, svg] : plots_of(runs))
+        if (title == "Stretch" || title.starts_with("Position error")) html += svg;
+    return html + "</div>\n</div>\n";
 }
 
 /// A section with a column per run.
@@ -281,18 +282,25 @@ std::string section(const std::string& title, const std::vector<RunFolder>& runs
 std::string report_html(const std::vector<RunFolder>& runs, const ReportOptions& options) {
     std::string title = title_of(runs.front());
     if (runs.size() > 1 && title_of(runs[1]) != title) title += " and " + title_of(runs[1]);
-    std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>{0}</title>\n"
-        "<meta name=\"viewport\" content=\"width=device-width\"/>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
-        "<h1>{0}</h1>\n",
-        xml_text(title), style);
+    std::string html;
     html += section("Result", runs, [](const RunFolder& run, std::size_t) { return status(run); });
-    if (runs.size() > 1) html += differences(runs[0], runs[1]);
+    if (runs.size() > 1 && runs[0].is_finished && runs[1].is_finished) html += differences(runs[0], runs[1]);
+    html += section("In 3-D", runs,
+                    [&](const RunFolder&, std::size_t id) { return space_beside_plots(runs, id, options.megabytes); });
     html += section("Pictures", runs, [&](const RunFolder& run, std::size_t id) { return pictures(run, id, options); });
     html += plot_section(runs);
-    html += section("Times", runs, [](const RunFolder& run, std::size_t) { return times(run); });
-    html += section("Settings", runs, [](const RunFolder& run, std::size_t) { return settings(run); });
-    return html + "</main>\n<script>//<![CDATA[" + script + "//]]></script>\n</body>\n</html>\n";
+    const auto once_finished = [](auto content) {
+        return [content](const RunFolder& run, std::size_t) {
+            return run.is_finished ? content(run) : "<p>Known when the run has ended.</p>\n";
+        };
+    };
+    html += section("Times", runs, once_finished(times));
+    html += section("Settings", runs, once_finished(settings));
+    std::string scripts = std::string("<script>//<![CDATA[") + script + "//]]></script>\n";
+    // Libraries that draw in 3-D are most of a small page, so that they come with a view alone.
+    if (html.find("<div class=\"space\"") != std::string::npos)
+        scripts += "<script>//<![CDATA[\n" + space_script() + "//]]></script>\n";
+    return page_of(title, html, scripts);
 }
 
 }  // namespace drape::report

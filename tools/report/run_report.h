@@ -11,6 +11,7 @@ namespace drape::report {
 struct ReportOptions {
     std::uint32_t frames = 60;  ///< at most so many pictures, evenly spread
     std::uint32_t width = 480;  ///< of a picture, pixels
+    double megabytes = 8;       ///< of positions of a run, at most; 0: none
 };
 
 /// Well-formed as XML too. Throws OutputError when a picture cannot be read.
