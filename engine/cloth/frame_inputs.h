@@ -26,7 +26,9 @@ std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector
 glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {});
 
 struct FrameInputs {
-    std::vector<glsl::vec4> wind;                    ///< per member and substep, m/s; empty without wind
+    /// Per member and substep the wind, m/s, and where gravity changes, behind it, what gravity is more than at the
+    /// start, m/s^2; empty without either.
+    std::vector<glsl::vec4> wind;
     std::vector<glsl::ColliderRecord> colliders;     ///< per substep, list by list, in the scene's order
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
