@@ -1,7 +1,8 @@
 // This pass finds the force of the wind: each particle gathers a third of the force, and of the drag, on each of its up
 // to six triangles. An invocation goes down some adjacent columns of particles and hands the triangles between two rows
 // on to the lower one, so that most are computed once and not for each of their corners. Every sum keeps the order of
-// triangle_around. MASKED takes the triangles that exist from the cell image (holes, cuts).
+// triangle_around. MASKED takes the triangles that exist from the cell image (holes, cuts). Where gravity changes, what
+// it is more than at the start is a force here, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED BUFFERED
@@ -12,6 +13,7 @@
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;    // the positions still lack the last substep's displacement
+layout(constant_id = 1) const bool weighs = false;     // behind each wind is what gravity is more than at the start
 layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation takes
 layout(constant_id = 21) const int strip_columns = 1;  // columns that it takes, most_columns at most
 const int most_columns = 2;
@@ -39,7 +41,7 @@ struct Shares {
     WindForce upper[most_columns + 1], lower[most_columns + 1];
 };
 
-vec3 wind_velocity;
+vec3 wind_velocity, more_gravity;
 int first_column;
 
 /// Loads a row; past the grid's border it loads the border again.
@@ -97,12 +99,16 @@ void store_row(Shares above, Shares below, int y) {
         sum = add_share(sum, below.lower[c]);
         sum = add_share(sum, below.upper[c + 1]);
         ivec2 texel = ivec2(first_column + c, y);
-        if (texel.x < push.grid.x) STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
+        if (texel.x >= push.grid.x) continue;
+        if (weighs) sum.force = add_weight(sum.force, more_gravity, push.inner_mass, LOAD(position, texel).w);
+        STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
     }
 }
 
 void main() {
-    wind_velocity = wind[push.first + given.substep].xyz;  // before anything branches (docs/devices.md)
+    int inputs = (push.first + given.substep) * (weighs ? 2 : 1);
+    wind_velocity = wind[inputs].xyz;  // before anything branches (docs/devices.md)
+    if (weighs) more_gravity = wind[inputs + 1].xyz;
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
     int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
     if (first_column >= push.grid.x || y >= end) return;

@@ -4,6 +4,7 @@
 
 #include "cloth/texels.h"
 #include "scene/start.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -48,7 +49,7 @@ void ClothGeometry::place(const Cloth& cloth) {
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {
     if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
-    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, scene.gravity));
+    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, strongest_gravity(scene)));
     if (!scene.cutters.empty())
         skipped.push_back(
             {name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});

@@ -4,6 +4,7 @@
 
 #include "scene/contact_shape.h"
 #include "scene/start_crossings.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -18,9 +19,9 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
       touches(!scene.colliders.empty() || cloths_meet(scene)),
       scheme(
           row_of(scene.solver.method)
-              .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, scene.gravity,
+              .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),
                               scene.solver.strain_damping, !scene.colliders.empty(), options.skip, options.device})) {
-    set_constants(scene, scene.cloths[cloth_index]);
+    set_constants(scene, scene.cloths[cloth_index], options.air || scene.wind.blows());
 }
 
 std::vector<glsl::vec4> ClothModel::start_displacement() const {
@@ -41,7 +42,7 @@ std::vector<glsl::vec4> ClothModel::start_excess() const {
     return texels;
 }
 
-void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth) {
+void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth, bool air) {
     const double h = substep_length;
     const auto rest_length = [&](std::size_t direction) {
         return static_cast<float>(stiffness_constant.spring[direction] > 0 ? stiffness_constant.rest_length[direction]
@@ -49,12 +50,15 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     };
     residual = {grid.size(), {rest_length(0), rest_length(1)}, compression};
     const Wind& w = scene.wind;
+    const double half_density = air ? 0.5 * w.air_density : 0;  // gravity alone may change, without air
     wind = {grid.size(),
             0,
             static_cast<float>(1.0 / h),
-            static_cast<float>(0.5 * w.air_density * (w.drag - w.lift)),
-            static_cast<float>(0.5 * w.air_density * w.lift),
+            static_cast<float>(half_density * (w.drag - w.lift)),
+            static_cast<float>(half_density * w.lift),
             static_cast<float>(spacing[0] * spacing[1]),
+            0,
+            static_cast<float>(inner_mass),
             0};
     // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),

@@ -14,6 +14,7 @@ struct ModelOptions {
     bool skip = true;
     DeviceKind device = DeviceKind::cpu;  ///< for this `auto` chooses, and methods leave out what others do cheaper
     bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
+    bool air = false;                     ///< there is air though the scene has no wind: an ensemble's actions move it
 };
 
 /// Contact resolves an overlap that it did not see coming (cloth that starts inside a collider) at this speed, m/s:
@@ -47,7 +48,7 @@ struct ClothModel : ClothGeometry {
     std::vector<glsl::vec4> start_excess() const;
 
   private:
-    void set_constants(const SceneDescription& scene, const Cloth& cloth);
+    void set_constants(const SceneDescription& scene, const Cloth& cloth, bool air);
 };
 
 }  // namespace drape

@@ -4,6 +4,7 @@
 
 #include "cloth/frame_inputs.h"
 #include "cloth/texels.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -49,7 +50,7 @@ std::vector<float> mass_shares(const ClothModel& cloth) {
 }
 
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
-                                 const glsl::StatisticsRecord& record) {
+                                 const glsl::StatisticsRecord& record, std::uint32_t frame) {
     const double h = cloth.substep_length;
     const glsl::vec4 reference = statistics_reference(cloth);
     ClothStatistics statistics;
@@ -66,9 +67,10 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
     statistics.mass = cloth.inner_mass * share;
     const double moments[3] = {record.moments.x, record.moments.y, record.moments.z};
     const double start[3] = {reference.x, reference.y, reference.z};
+    const Vec3 gravity = gravity_at(model.scene, frame / model.scene.time.fps);
     for (std::size_t k = 0; k < 3; ++k) {
         statistics.center_of_mass[k] = start[k] + (share > 0 ? moments[k] / share : 0.0);
-        statistics.potential_energy -= statistics.mass * model.scene.gravity[k] * statistics.center_of_mass[k];
+        statistics.potential_energy -= statistics.mass * gravity[k] * statistics.center_of_mass[k];
     }
     if (!model.scene.colliders.empty()) {
         statistics.penetration = record.extents.z;

@@ -10,6 +10,7 @@
 #include "cloth/hang.h"
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -71,9 +72,9 @@ std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame) 
             const double wind =
                 model.windy ? wind_acceleration(scene, scene.cloths[cloth], length(wind_velocity(scene.wind, time)))
                             : 0;
-            drive[cloth] =
-                std::max(drive[cloth], length(scene.gravity) + wind + of_pins(model.cloths[cloth], time, step) +
-                                           of_colliders(scene, model.cloths[cloth], time, step));
+            drive[cloth] = std::max(drive[cloth], length(gravity_at(scene, time)) + wind +
+                                                      of_pins(model.cloths[cloth], time, step) +
+                                                      of_colliders(scene, model.cloths[cloth], time, step));
         }
     return drive;
 }

@@ -7,6 +7,7 @@
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
 #include "scene/motion.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -143,6 +144,10 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
         if (model.windy) {
             const Vec3 wind = wind_velocity(scene.wind, 0.5 * (start + end));
             inputs.wind.push_back(row({wind[0], wind[1], wind[2]}, 0, 0));
+            if (model.weighs) {
+                const Vec3 more = minus(gravity_at(scene, 0.5 * (start + end)), gravity_at(scene, 0));
+                inputs.wind.push_back(row({more[0], more[1], more[2]}, 0, 0));
+            }
         }
         if (substep == 0 || model.colliders_move)
             for (const std::vector<KeptCollider>& list : model.kept_colliders)

@@ -28,7 +28,9 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
                                      std::size_t field = 0);
 
 struct FrameInputs {
-    std::vector<glsl::vec4> wind;                    ///< per member and substep, m/s; empty without wind
+    /// Per member and substep the wind, m/s, and where gravity changes, behind it, what gravity is more than at the
+    /// start, m/s^2; empty without either.
+    std::vector<glsl::vec4> wind;
     std::vector<glsl::ColliderRecord> colliders;     ///< per substep, list by list, in the scene's order
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/weather.h"
+
 namespace drape {
 
 namespace {
@@ -79,14 +81,14 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     Hang hang{};
     hang.length = hanging_length(cloth);
     hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
-    const double wind_speed = length(scene.wind.velocity) + scene.wind.gust.amplitude;
-    hang.gravity = length(scene.gravity);
-    hang.acceleration = length(scene.gravity) + wind_acceleration(scene, cloth, wind_speed);
+    const double wind_speed = length(strongest_wind(scene.wind)) + scene.wind.gust.amplitude;
+    hang.gravity = length(strongest_gravity(scene));
+    hang.acceleration = hang.gravity + wind_acceleration(scene, cloth, wind_speed);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
     hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && scene.cutters.empty();
     hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
-    hang.calm = hang.by_an_edge && !scene.wind.blows();
+    hang.calm = hang.by_an_edge && !has_weather(scene);
     hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];
     return hang;
 }

@@ -13,7 +13,7 @@ struct Hang {
     bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
     double edge_spacing;  ///< m, that of the links that lead away from that edge
     bool by_lone_pins;    ///< particles held alone carry it, and nothing stands in its way
-    bool calm;            ///< besides, no wind blows
+    bool calm;            ///< besides, no wind blows and gravity stays
     std::size_t particle_count;
 };
 

@@ -10,6 +10,7 @@
 #include "scene/collider_pose.h"
 #include "scene/contact_shape.h"
 #include "scene/surface_distance.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -67,7 +68,7 @@ std::string pinched(const SimulationModel& model, std::uint32_t frame) {
 
 std::string blown_away(const SimulationModel& model) {
     const Wind& wind = model.scene.wind;
-    const double speed = length(wind.velocity) + wind.gust.amplitude;
+    const double speed = length(strongest_wind(wind)) + wind.gust.amplitude;
     if (!wind.blows() || !(wind.drag > 0)) return {};
     for (const Cloth& cloth : model.scene.cloths) {
         // Drag 1/2 rho Cd v^2 accelerates an areal density s to v within 2 s / (rho Cd v).

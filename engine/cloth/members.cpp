@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "scene/weather.h"
+
 namespace drape {
 
 namespace {
@@ -77,16 +79,20 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
     const auto blows = [](const SceneDescription& scene) {
         return std::string(scene.wind.blows() ? "blowing" : "none");
     };
+    const auto weight = [](const SceneDescription& scene) {
+        return std::string(gravity_changes(scene) ? "changing" : "steady");
+    };
     if (auto found = differ("/cloths", fmt::format("a list of {}", first.cloths.size()),
                             fmt::format("a list of {}", other.cloths.size())))
         return found;
     for (std::size_t k = 0; k < first.cloths.size(); ++k)
         if (auto found = cloth_difference(fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k])) return found;
-    for (const Difference& found : {differ("/time/fps", first.time.fps, other.time.fps),
-                                    differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
-                                    differ("/wind", blows(first), blows(other)),
-                                    differ("/cutters", fmt::format("a list of {}", first.cutters.size()),
-                                           fmt::format("a list of {}", other.cutters.size()))})
+    for (const Difference& found :
+         {differ("/time/fps", first.time.fps, other.time.fps),
+          differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
+          differ("/wind", blows(first), blows(other)), differ("/gravity_keys", weight(first), weight(other)),
+          differ("/cutters", fmt::format("a list of {}", first.cutters.size()),
+                 fmt::format("a list of {}", other.cutters.size()))})
         if (found) return found;
     return solver_difference(first.solver, other.solver);
 }

@@ -19,7 +19,7 @@ namespace drape {
 struct MethodSettings {
     std::uint32_t substeps, iterations;  ///< per frame, per substep
     double substep_length;               ///< s
-    Vec3 gravity;                        ///< m/s^2
+    Vec3 gravity;                        ///< m/s^2, at the start
     double strain_damping;               ///< SolverSettings' value
     bool collides;                       ///< the scene has colliders
     bool skip = true;                    ///< false: keep needless work that changes no bit

@@ -7,6 +7,7 @@
 #include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
+#include "scene/weather.h"
 #include "shared/collider_types.h"
 
 namespace drape {
@@ -17,7 +18,8 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
       asked_tolerance(description.solver.tolerance),
       choice(choose_solver(description, wanted.device)),
       options(wanted),
-      windy(description.wind.blows()) {
+      windy(has_weather(description) || wanted.air),
+      weighs(gravity_changes(description)) {
     scene.solver = choice.settings;
     add_cloths(cloths_meet(scene) ? start_crossings(scene) : std::vector<StartCrossing>{});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
@@ -34,6 +36,7 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       kept_colliders(run.kept_colliders),
       mesh_fields(run.mesh_fields),
       windy(run.windy),
+      weighs(run.weighs),
       colliders_move(run.colliders_move) {
     scene.solver.substeps = substeps;
     add_cloths(run.self_contact ? run.self_contact->crossed : std::vector<StartCrossing>{});
@@ -49,6 +52,7 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
       options(members.front()->options),
       mesh_fields(members.front()->mesh_fields),
       windy(members.front()->windy),
+      weighs(members.front()->weighs),
       member_count(members.size()) {
     scene.cloths.clear();
     for (std::size_t member = 0; member < members.size(); ++member) {

@@ -36,7 +36,8 @@ struct SimulationModel {
     /// grows them alike for and that leave them alike.
     std::vector<std::vector<KeptCollider>> kept_colliders;
     MeshFields mesh_fields;  ///< distances to the colliders that are meshes
-    bool windy;
+    bool windy;              ///< substeps have a wind pass: wind blows, actions may make it blow, or gravity changes
+    bool weighs;             ///< the wind pass also adds what gravity is more than at the start
     bool colliders_move = false;   ///< some collider is key-framed: each substep has records of its own
     std::size_t member_count = 1;  ///< scenes that the cloths are of (ClothModel::member)
     /// Returns the rounds over all colliders per collision step: one collider cannot overlap another.

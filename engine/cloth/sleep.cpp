@@ -5,6 +5,7 @@
 
 #include "cloth/cut_topology.h"
 #include "cloth/frame_judgement.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -24,6 +25,7 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
     const double to = frame / scene.time.fps, from = to - 1 / scene.time.fps;
     if (model.windy && scene.wind.gust.amplitude != 0) return false;
+    if (!is_steady(scene.wind.keys, from, to) || !is_steady(scene.gravity_keys, from, to)) return false;
     if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
     // The step after the last key still sees its motion in the velocities of pins and surfaces.
     const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };

@@ -9,6 +9,7 @@
 #include "cloth/motion_error.h"
 #include "cloth/substep_control.h"
 #include "scene/contact_shape.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -18,7 +19,7 @@ namespace {
 double substep_ms(const Method& method, const SceneDescription& scene, const Cloth& cloth, DeviceKind device) {
     const DeviceCosts& costs = costs_of(device);
     SubstepCost cost = costs.of(method.method);
-    if (scene.wind.blows()) cost += costs.wind;
+    if (has_weather(scene)) cost += costs.wind;
     if (const auto count = static_cast<double>(scene.colliders.size()); count > 0)
         cost += {costs.colliders.ms, count * costs.colliders.particle_ns};
     if (meets_box_edges(cloth, scene.colliders)) cost += costs.box_edges;
@@ -32,7 +33,8 @@ constexpr double longest_substep = 0.0088;
 
 /// Returns the longest substep of a cloth that gravity swings, s.
 double swing_substep(const SceneDescription& scene, const Cloth& cloth) {
-    const double gravity = std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]);
+    const Vec3 strongest = strongest_gravity(scene);
+    const double gravity = std::hypot(strongest[0], strongest[1], strongest[2]);
     return longest_substep * std::sqrt(std::max(cloth.size[0], cloth.size[1]) / gravity);  // infinite without gravity
 }
 
@@ -50,7 +52,7 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
     const MethodSettings settings{substeps,
                                   1,
                                   1 / (scene.time.fps * substeps),
-                                  scene.gravity,
+                                  gravity_at(scene, 0),
                                   scene.solver.strain_damping,
                                   !scene.colliders.empty()};
     return std::max(substeps, method.scheme(ClothGeometry(scene, small, false), settings).following_substeps);

@@ -15,6 +15,7 @@
 #include "scene/collider_pose.h"
 #include "scene/contact_shape.h"
 #include "scene/overlap.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -195,9 +196,9 @@ double Watch::released(std::size_t index) const {
 double Watch::own_speed(std::uint32_t frame, std::size_t index) const {
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
-    const double time = frame / model_.scene.time.fps, gravity = length(model_.scene.gravity);
+    const double time = frame / model_.scene.time.fps, gravity = length(strongest_gravity(model_.scene));
     const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
-    const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
+    const double wind = length(strongest_wind(model_.scene.wind)) + std::abs(model_.scene.wind.gust.amplitude);
     const Drive& drive = drive_at(index, frame);
     const double smaller = std::min(cloth.size[0], cloth.size[1]);
     const double recoil =
@@ -255,12 +256,12 @@ Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) co
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
     const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
-    const double start_energy = moving - statistics.mass * dot(model_.scene.gravity, start.mean);
+    const double start_energy = moving - statistics.mass * dot(gravity_at(model_.scene, 0), start.mean);
     // The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at
     // the full stiffness, though it was never stored.
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
-    const double scale =
-        moving + statistics.mass * (length(model_.scene.gravity) * start.diagonal + 0.5 * calm_speed * calm_speed);
+    const double scale = moving + statistics.mass * (length(strongest_gravity(model_.scene)) * start.diagonal +
+                                                     0.5 * calm_speed * calm_speed);
     const double given = released(index), led = pushed();
     return {energy - start_energy, energy_share * scale + statistics.mass * (given * given + led * led)};
 }
@@ -312,9 +313,9 @@ double Watch::stretch_law(std::size_t index, double speed) const {
     const Wind& wind = model_.scene.wind;
     const double step = 1 / (model_.scene.time.fps * solver.substeps);
     const double sweeps = model_.method().iterates() ? solver.iterations : 1;
-    const double blows = length(wind.velocity) + std::abs(wind.gust.amplitude);
+    const double blows = length(strongest_wind(wind)) + std::abs(wind.gust.amplitude);
     const double blown = most_wind_acceleration(model_.scene, model_.scene.cloths[index], blows);
-    const double acceleration = length(model_.scene.gravity) + speed * speed / cloth.reach() + blown;
+    const double acceleration = length(strongest_gravity(model_.scene)) + speed * speed / cloth.reach() + blown;
     double most = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const double edges = (axis == 0 ? cloth.grid.columns() : cloth.grid.rows()) - 1;

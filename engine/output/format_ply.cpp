@@ -19,10 +19,11 @@ void append(std::string& text, T value) {
 std::string ply_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
     const std::span<const float> xyzw = mesh.positions;
     std::string text = fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment metres, y up; vertex row * columns + column is that particle\n"
+        "ply\nformat binary_little_endian 1.0\ncomment metres, {} up; vertex row * columns + column is that "
+        "particle\n"
         "element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-        cloth.particle_count(), cloth.faces.size() / 3);
+        spelling(up_spellings, cloth.up), cloth.particle_count(), cloth.faces.size() / 3);
     for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle) {
         for (std::size_t axis = 0; axis < 3; ++axis) append(text, xyzw[4 * particle + axis]);
         for (const float coordinate : cloth.uv(particle)) append(text, coordinate);

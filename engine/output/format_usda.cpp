@@ -44,8 +44,8 @@ class UsdaFile {
         end_place_ = file_.size();
         put(
             fmt::format("{}\n    framesPerSecond = {}\n    metersPerUnit = 1\n    startTimeCode = {}\n"
-                        "    timeCodesPerSecond = {}\n    upAxis = \"Y\"\n)\n\ndef Mesh \"{}\"\n{{\n",
-                        end_text(run.end), run.fps, run.start, run.fps, name));
+                        "    timeCodesPerSecond = {}\n    upAxis = \"{}\"\n)\n\ndef Mesh \"{}\"\n{{\n",
+                        end_text(run.end), run.fps, run.start, run.fps, cloth.up == Up::z ? 'Z' : 'Y', name));
         put("    uniform bool doubleSided = 1\n    uniform token subdivisionScheme = \"none\"\n");
         put_uv();
         put("    point3f[] points.timeSamples = {\n");

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drape/scene.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
 
@@ -24,6 +25,7 @@ struct WrittenCloth {
     std::string label = {};            ///< the scene's name for it: WrittenFrame::values has "<label>/..."
     std::array<double, 2> size{1, 1};  ///< metres along columns, rows
     std::vector<bool> held{};          ///< by particle: pinned at the start; empty: none
+    Up up = Up::y;                     ///< the world's, whose coordinates the files have
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Returns where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.

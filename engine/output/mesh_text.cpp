@@ -8,7 +8,7 @@ namespace drape {
 
 std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
                      const std::vector<std::uint32_t>& particles) {
-    std::string text = "# Metres, y up.\n";
+    std::string text = fmt::format("# Metres, {} up.\n", spelling(up_spellings, cloth.up));
     auto out = std::back_inserter(text);
     std::vector<std::size_t> number(cloth.particle_count());
     std::size_t count = 0;

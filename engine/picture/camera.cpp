@@ -29,7 +29,7 @@ RowMajor4 view(const Camera& camera) {
     Eigen::Vector3d forward = vector(camera.target) - eye;
     if (!(forward.norm() > 0)) forward = -Eigen::Vector3d::UnitZ();
     forward.normalize();
-    Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitY());
+    Eigen::Vector3d right = forward.cross(vector(camera.up));
     // Straight up or down no horizon is left to keep level.
     if (right.norm() < 1e-9) right = Eigen::Vector3d::UnitX();
     right.normalize();

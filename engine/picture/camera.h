@@ -1,5 +1,5 @@
 // Turns the camera of a scene into matrices, and finds where a point of the world lands in the picture. Coordinates are
-// right-handed, y up; the eye looks along -z of view space. Clip space is Vulkan's: y down, depth 0 (near plane) to 1
+// right-handed; the eye looks along -z of view space. Clip space is Vulkan's: y down, depth 0 (near plane) to 1
 // (far plane). The planes follow the distance d from eye to target (d/100 and 1000 d), so that a scene in millimetres
 // and one in kilometres are drawn alike.
 #pragma once
@@ -14,8 +14,8 @@ namespace drape {
 /// A matrix is row major: clip = matrix * (x, y, z, 1).
 using Matrix4 = std::array<double, 16>;
 
-/// Returns view space from world space. The world's y points up in the picture; when the camera looks straight down,
-/// the world's -z does, straight up its +z.
+/// Returns view space from world space. The camera's `up` points up in the picture; when it looks straight up or down,
+/// the world's x points to the right.
 Matrix4 view_matrix(const Camera& camera);
 /// Returns clip space from view space; `fov` is vertical, pixels are square.
 Matrix4 projection_matrix(const Camera& camera, std::uint32_t width, std::uint32_t height);

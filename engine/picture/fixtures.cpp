@@ -8,6 +8,7 @@
 #include "scene/collider_pose.h"
 #include "scene/motion.h"
 #include "scene/start.h"
+#include "scene/world.h"
 
 namespace drape {
 namespace {
@@ -20,7 +21,11 @@ Vec3 middle(const Vec3& a, const Vec3& b) { return sum(sum({0, 0, 0}, a, 0.5), b
 class Fitter {
   public:
     Fitter(const SceneDescription& scene, const Cloth& cloth, std::vector<Fixture>& found)
-        : scene_(scene), cloth_(cloth), found_(found), size_(std::max(cloth.size[0], cloth.size[1])) {}
+        : scene_(scene),
+          cloth_(cloth),
+          found_(found),
+          size_(std::max(cloth.size[0], cloth.size[1])),
+          up_(up_axis(scene.up)) {}
 
     void fit() {
         std::vector<const Pin*> points;
@@ -63,14 +68,14 @@ class Fitter {
         const double reach = length(along);
         if (!(reach > 0)) return;
         for (double& part : along) part /= reach;
-        const bool upright = std::abs(along[1]) > 0.8;
-        if (upright && along[1] < 0) {
+        const bool upright = std::abs(along[up_]) > 0.8;
+        if (upright && along[up_] < 0) {
             std::swap(from, to);
             for (double& part : along) part = -part;
         }
-        const std::optional<double> floor = floor_below(scene_.colliders, from[1]);
+        const std::optional<double> floor = floor_below(scene_.colliders, from[up_], up_);
         const bool stands = upright && floor && pin.path.keys.empty();
-        from = stands ? sum(from, along, (*floor - from[1]) / along[1]) : sum(from, along, -overhang * size_);
+        from = stands ? sum(from, along, (*floor - from[up_]) / along[up_]) : sum(from, along, -overhang * size_);
         to = sum(to, along, overhang * size_);
         add(from, to, upright ? pole : rail, pin);
         add_knob(to, pin, finial);
@@ -82,7 +87,7 @@ class Fitter {
         if (points.size() < 3) return false;
         Vec3 along = sum(first(*points.back()), first(*points.front()), -1);
         const double reach = length(along);
-        if (!(reach > 0) || std::abs(along[1]) > 0.8 * reach) return false;
+        if (!(reach > 0) || std::abs(along[up_]) > 0.8 * reach) return false;
         for (double& part : along) part /= reach;
         const Vec3 origin = first(*points.front());
         double low = 0, high = 0;
@@ -110,8 +115,10 @@ class Fitter {
 
     void fit_point(const Pin& pin) {
         const Vec3 at = first(pin);
-        const std::optional<double> floor = floor_below(scene_.colliders, at[1]);
-        if (floor && pin.path.keys.empty()) add({at[0], *floor, at[2]}, at, pole, pin);
+        const std::optional<double> floor = floor_below(scene_.colliders, at[up_], up_);
+        Vec3 foot = at;
+        foot[up_] = floor.value_or(at[up_]);
+        if (floor && pin.path.keys.empty()) add(foot, at, pole, pin);
         add_knob(at, pin);
     }
 
@@ -122,6 +129,7 @@ class Fitter {
     const Cloth& cloth_;
     std::vector<Fixture>& found_;
     double size_;
+    std::size_t up_;  ///< the coordinate that grows upwards
 };
 
 }  // namespace

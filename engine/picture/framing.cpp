@@ -11,6 +11,8 @@
 #include "picture/picture_places.h"
 #include "scene/collider_pose.h"
 #include "scene/start.h"
+#include "scene/weather.h"
+#include "scene/world.h"
 
 namespace drape {
 namespace {
@@ -78,7 +80,12 @@ std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& d
 /// Returns points that the picture should hold.
 std::vector<Vec3> subject(const SceneDescription& scene) {
     std::vector<Vec3> points;
-    const Vec3 down = unit(scene.gravity);
+    const std::size_t up = up_axis(scene.up);
+    const Vec3 down = unit(gravity_at(scene, 0));
+    const auto at_height = [up](Vec3 point, double height) {
+        point[up] = height;
+        return point;
+    };
     const bool lands_on_bodies = std::ranges::any_of(
         scene.colliders, [](const Collider& collider) { return !std::holds_alternative<Plane>(collider.shape); });
     for (const Cloth& cloth : scene.cloths) {
@@ -87,14 +94,14 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
             for (const Pin& pin : cloth.pins)
                 for (const MotionKey& key : pin.path.keys) points.push_back(sum(corner, key.translate));
             const std::optional<Vec3> hung = hanging(cloth, corner, down);
-            const std::optional<double> floor = floor_below(scene.colliders, corner[1]);
+            const std::optional<double> floor = floor_below(scene.colliders, corner[up], up);
             // Wind keeps a flag up; cloth that nothing holds comes down, and draws together on bodies that it meets.
             if (hung && !scene.wind.blows())
-                points.push_back({(*hung)[0], std::max((*hung)[1], floor.value_or(-infinity)), (*hung)[2]});
+                points.push_back(at_height(*hung, std::max((*hung)[up], floor.value_or(-infinity))));
             if (!hung && floor) {
                 const Vec3 middle = start_place(cloth, cloth.grid[0] / 2, cloth.grid[1] / 2);
                 const Vec3 end = sum(middle, sum(corner, middle, -1), lands_on_bodies ? 0.5 : 1);
-                points.push_back({end[0], *floor, end[2]});
+                points.push_back(at_height(end, *floor));
             }
         }
     }
@@ -130,6 +137,8 @@ Seen seen(const std::vector<Vec3>& points, const Vec3& eye, const std::array<Vec
 
 Camera automatic_camera(const SceneDescription& scene, double aspect) {
     Camera camera;
+    camera.position = in_world(scene.up, camera.position);
+    camera.target = in_world(scene.up, camera.target);
     camera.fov = 34;
     std::vector<Vec3> points = subject(scene);
     if (points.empty()) return camera;
@@ -138,7 +147,8 @@ Camera automatic_camera(const SceneDescription& scene, double aspect) {
     const Vec3 diagonal = sum(bounds.high, bounds.low, -1);
     Vec3 target = sum(bounds.low, diagonal, 0.5);
     const double size = std::max(length(diagonal), 1e-6);
-    const Vec3 forward = unit({-0.5, -0.4, -0.85}), right = unit(cross(forward, {0, 1, 0}));
+    const Vec3 forward = unit(in_world(scene.up, {-0.5, -0.4, -0.85}));
+    const Vec3 right = unit(cross(forward, in_world(scene.up, {0, 1, 0})));
     const Vec3 up = cross(right, forward);
     const double half_high = std::tan(camera.fov * std::numbers::pi / 360) * 0.9, half_wide = half_high * aspect;
     // Bisection finds the nearest distance that shows all of it; the middle of what is seen becomes the target.
@@ -175,7 +185,9 @@ BoundingSphere scene_extent(const SceneDescription& scene) {
 }
 
 Camera picture_camera(const SceneDescription& scene, std::uint32_t width, std::uint32_t height) {
-    return scene.camera ? *scene.camera : automatic_camera(scene, static_cast<double>(width) / height);
+    Camera camera = scene.camera ? *scene.camera : automatic_camera(scene, static_cast<double>(width) / height);
+    camera.up = in_world(scene.up, {0, 1, 0});
+    return camera;
 }
 
 }  // namespace drape

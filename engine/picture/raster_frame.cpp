@@ -9,6 +9,7 @@
 #include "picture/camera.h"
 #include "picture/picture_places.h"
 #include "scene/collider_pose.h"
+#include "scene/world.h"
 
 namespace drape {
 namespace {
@@ -39,7 +40,8 @@ Vec3 to_first_light(const SceneDescription& scene) { return unit_or_up(sum({0, 0
 
 ShadowMatrix shadow_matrix(const SceneDescription& scene, const BoundingSphere& extent) {
     const Vec3 to_light = to_first_light(scene);
-    const Vec3 across = unit_or_up(cross(std::abs(to_light[1]) < 0.9 ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, to_light));
+    const bool is_low = std::abs(to_light[up_axis(scene.up)]) < 0.9;
+    const Vec3 across = unit_or_up(cross(in_world(scene.up, is_low ? Vec3{0, 1, 0} : Vec3{0, 0, 1}), to_light));
     const Vec3 up = cross(to_light, across);
     const double texel_size = 2 * extent.radius / glsl::shadow_map_size;
     ShadowMatrix result{{}, {}, texel_size};
@@ -85,7 +87,7 @@ void write_floor_light(const SceneDescription& scene, const Collider& plane, con
                        glsl::FloorConstants& floor) {
     const glsl::vec4 albedo = linear_color(plane.color);
     std::array<Vec3, 2> sums{};  // sums over all lights but the first, and over the first
-    const double up = 0.5 + 0.5 * normal[1];
+    const double up = 0.5 + 0.5 * normal[up_axis(scene.up)];
     for (std::size_t k = 0; k < 3; ++k) sums[0][k] = scene.ambient[k] * up + scene.ambient_ground[k] * (1 - up);
     for (std::size_t i = 0; i < light_count(scene); ++i) {
         const DirectionalLight& light = scene.lights[i];
@@ -182,7 +184,7 @@ glsl::FrameConstants frame_constants(const SceneDescription& scene, const Pictur
             texel({matrix[4 * row], matrix[4 * row + 1], matrix[4 * row + 2], matrix[4 * row + 3]});
     constants.eye = texel(camera.position, 0);
     constants.ambient = texel(scene.ambient, 0);
-    constants.ground = texel(scene.ambient_ground, 0);
+    constants.ground = texel(scene.ambient_ground, scene.up == Up::z ? 1 : 0);
     const glsl::vec4 background = linear_color(scene.image.background);
     constants.background = {glsl::untoned(background.x), glsl::untoned(background.y), glsl::untoned(background.z), 0};
     constants.background.w = static_cast<float>(height);

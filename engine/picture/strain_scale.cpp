@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -13,9 +14,9 @@ constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 
 
 /// Returns N/m on an edge that bears the cloth's weight, as often as pins and folds gather it, or the wind's push.
 double edge_force(const Cloth& cloth, const SceneDescription& scene) {
-    const double fastest = length(scene.wind.velocity) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
+    const double fastest = length(strongest_wind(scene.wind)) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
     const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;
-    return std::max(gathered_weights * cloth.areal_density * length(scene.gravity), pressure) *
+    return std::max(gathered_weights * cloth.areal_density * length(strongest_gravity(scene)), pressure) *
            std::max(cloth.size[0], cloth.size[1]);
 }
 

@@ -6,6 +6,7 @@
 #include "base/vectors.h"
 #include "reference/spring_network.h"
 #include "scene/gust.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -86,6 +87,8 @@ std::vector<Vec3> SpringNetwork::gradient(std::span<const Vec3> position) const 
     }
     return result;
 }
+
+Vec3 SpringNetwork::more_gravity(double time) const { return value_at(gravity_keys, gravity, time) - gravity; }
 
 void SpringNetwork::add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                                    std::span<Vec3> force) const {

@@ -8,6 +8,7 @@
 #include "reference/stable_hash.h"
 #include "scene/motion.h"
 #include "scene/start.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -39,7 +40,8 @@ void check_supported(const SceneDescription& scene, const Cloth& cloth, const Ne
 
 SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options)
     : start_velocity(scene.cloths.at(cloth_index).velocity),
-      gravity(scene.gravity),
+      gravity(gravity_at(scene, 0)),
+      gravity_keys(scene.gravity_keys),
       damping(scene.cloths[cloth_index].damping),
       wind(scene.wind) {
     const Cloth& cloth = scene.cloths[cloth_index];
@@ -216,11 +218,20 @@ void add(StableHash& hash, const NetworkPin& pin) {
     hash.add(pin.release.value_or(0.0));
 }
 
+/// A vector that stays adds nothing, so that the fingerprint of its network is what it was before there were keys.
+void add(StableHash& hash, const std::vector<VectorKey>& keys) {
+    for (const VectorKey& key : keys) {
+        hash.add(key.time);
+        add(hash, key.value);
+    }
+}
+
 void add(StableHash& hash, const Wind& wind) {
     add(hash, wind.velocity);
     for (const double value : {wind.gust.amplitude, wind.gust.period, wind.air_density, wind.drag, wind.lift})
         hash.add(value);
     hash.add(std::uint64_t{wind.gust.seed});
+    add(hash, wind.keys);
 }
 
 }  // namespace
@@ -249,6 +260,7 @@ std::uint64_t SpringNetwork::fingerprint() const {
         for (const std::uint32_t p : triangle) hash.add(std::uint64_t{p});
     add(hash, start_velocity);
     add(hash, gravity);
+    add(hash, gravity_keys);
     hash.add(damping);
     add(hash, wind);
     return hash.value();

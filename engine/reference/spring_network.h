@@ -86,7 +86,8 @@ struct SpringNetwork {
     std::vector<BendingElement> bending;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< triangles that feel wind
     Vec3 start_velocity{0, 0, 0};                         ///< m/s, of free particles
-    Vec3 gravity{0, -9.81, 0};                            ///< m/s^2
+    Vec3 gravity{0, -9.81, 0};                            ///< m/s^2, of the potential energy: that at the start
+    std::vector<VectorKey> gravity_keys;                  ///< m/s^2; empty: it stays
     double damping = 0;                                   ///< 1/s: acceleration -damping * velocity
     Wind wind;
 
@@ -110,6 +111,8 @@ struct SpringNetwork {
 
     /// dE/dx of the potential energy, which is minus the forces (N), held particles included.
     std::vector<Vec3> gradient(std::span<const Vec3> position) const;
+    /// Returns what gravity is more at a time (s) than at the start, m/s^2.
+    Vec3 more_gravity(double time) const;
     /// Adds the wind's force (N) by the scene's formula per triangle, a third to each corner.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;

@@ -1,10 +1,12 @@
 // Solves statics, the minimum of the potential energy.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "reference/implicit_reference.h"
 #include "reference/sparse_system.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -120,6 +122,9 @@ double softest_share(const SpringNetwork& network) {
 }  // namespace
 
 StaticResult find_equilibrium(const SpringNetwork& network, std::span<const Vec3> start, const StaticOptions& options) {
+    constexpr double always = std::numeric_limits<double>::infinity();
+    if (!is_steady(network.gravity_keys, -always, always))
+        throw std::invalid_argument("static reference: where gravity changes, nothing comes to rest");
     std::vector<Vec3> from(start.begin(), start.end());
     std::uint32_t iterations = 0;
     if (options.soften_first)

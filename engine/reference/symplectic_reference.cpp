@@ -112,8 +112,10 @@ class SymplecticRun {
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     if (network_.mass[p] > 0) acceleration_[axis][p] += force[p][axis] / network_.mass[p];
         }
+        const Vec3 more = network_.more_gravity(time_);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t p = 0; p < free_.size(); ++p) acceleration_[axis][p] *= free_[p];
+            for (std::size_t p = 0; p < free_.size(); ++p)
+                acceleration_[axis][p] = (acceleration_[axis][p] + more[axis]) * free_[p];
     }
 
     void check_finite() const {

@@ -122,7 +122,8 @@ namespace {
 
 void run_wind(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const vec3 velocity = xyz(inputs.wind[step.substep]);
+    const std::size_t own = step.substep * std::size_t{scene.weighs ? 2u : 1u};
+    const vec3 velocity = xyz(inputs.wind[own]);
     const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
     const auto now = [&](std::size_t index) {
@@ -144,7 +145,11 @@ void run_wind(const TwinPlace& where) {
                     push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
                 sum = add_share(sum, share);
             });
-            state[Field::wind_force][at(model.grid, {x, y})] = texel(sum.force, sum.drag);
+            const std::size_t particle = at(model.grid, {x, y});
+            if (scene.weighs)
+                sum.force = add_weight(sum.force, xyz(inputs.wind[own + 1]), push.inner_mass,
+                                       state[Field::position][particle].w);
+            state[Field::wind_force][particle] = texel(sum.force, sum.drag);
         }
 }
 

@@ -11,6 +11,7 @@
 #include "scene/scene_rules.h"
 #include "scene/start.h"
 #include "scene/start_crossings.h"
+#include "scene/weather.h"
 
 namespace drape {
 namespace {
@@ -133,7 +134,8 @@ double fall_per_substep(const SceneDescription& scene, const Cloth& cloth, doubl
 /// set it right if it were ordinary: gravity, the frame rate, or else the cloth.
 bool check_fall(const Members& members, const SceneDescription& scene) {
     constexpr double most = 1e4, ordinary_gravity = 9.81, ordinary_fps = 60;
-    const double gravity = std::hypot(scene.gravity[0], scene.gravity[1], scene.gravity[2]), fps = scene.time.fps;
+    const Vec3 strongest = strongest_gravity(scene);
+    const double gravity = std::hypot(strongest[0], strongest[1], strongest[2]), fps = scene.time.fps;
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
         const Cloth& cloth = scene.cloths[i];
         const double fall = fall_per_substep(scene, cloth, gravity, fps);
@@ -143,7 +145,8 @@ bool check_fall(const Members& members, const SceneDescription& scene) {
             "and at most {:.0e} can be simulated",
             cloth.name, fall, gravity, fps, most);
         if (fall_per_substep(scene, cloth, std::min(gravity, ordinary_gravity), fps) <= most)
-            return members["gravity"].fail("expected less gravity: " + why);
+            return members[scene.gravity_keys.empty() ? "gravity" : "gravity_keys"].fail("expected less gravity: " +
+                                                                                         why);
         if (fall_per_substep(scene, cloth, gravity, std::max(fps, ordinary_fps)) <= most)
             return members["time"].member("fps").fail("expected more frames per second: " + why);
         return members["cloths"].element(i).fail("expected a larger cloth, more frames per second or less gravity: " +
@@ -309,12 +312,14 @@ bool check_scene(const Members& members, SceneDescription& scene) {
             name.fail(fmt::format("expected a name no other cloth has, got \"{}\"", cloths[i].name));
         count_particles(node.element(i).member("grid"), cloths[i], particle_total);
     }
+    if (members["gravity"] && members["gravity_keys"])
+        members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
     if (!cloths_meet(scene)) warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
     warn_of_doubts(members, scene);
-    return !members.fit({"time", "gravity", "cloths", "solver"}) || check_fall(members, scene);
+    return !members.fit({"time", "gravity", "gravity_keys", "cloths", "solver"}) || check_fall(members, scene);
 }
 
 }  // namespace drape

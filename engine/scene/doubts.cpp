@@ -8,6 +8,7 @@
 #include "base/vectors.h"
 #include "scene/held.h"
 #include "scene/scene_rules.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -83,10 +84,10 @@ void warn_of_doubts(const Members& members, const SceneDescription& scene) {
             warn_of_far(members["colliders"].member(collider_lists[kind]).element(place).member("path"), collider.path);
         }
     }
-    const double wind = length(scene.wind.velocity);
+    const double wind = length(strongest_wind(scene.wind));
     if (members.fit({"wind"}) && wind > fast)
         members["wind"]
-            .member("velocity")
+            .member(scene.wind.keys.empty() ? "velocity" : "keys")
             .warn(fmt::format("a wind of {:.4g} m/s is faster than any storm's: divide km/h by 3.6", wind));
     if (members.fit({"camera"}) && scene.camera && scene.camera->fov < narrow)
         members["camera"].member("fov").warn(fmt::format(

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scene/random.h"
+#include "scene/weather.h"
 
 namespace drape {
 
@@ -27,8 +28,8 @@ double gust_speed(const Gust& gust, double time) {
 }
 
 Vec3 wind_velocity(const Wind& wind, double time) {
-    if (!wind.blows()) return {0, 0, 0};
-    const Vec3& v = wind.velocity;
+    const Vec3 v = value_at(wind.keys, wind.velocity, time);
+    if (v == Vec3{0, 0, 0}) return v;
     const double factor = gust_speed(wind.gust, time) / std::hypot(v[0], v[1], v[2]);
     return {v[0] + factor * v[0], v[1] + factor * v[1], v[2] + factor * v[2]};
 }

@@ -15,8 +15,8 @@ std::array<double, 3> gust_phases(std::uint32_t seed);
 /// (sin(2 pi t/period + p1) + 0.5 sin(2 pi 2.3 t/period + p2) + 0.25 sin(2 pi 5.1 t/period + p3)) / 1.75.
 double gust_speed(const Gust& gust, double time);
 
-/// Returns the wind velocity at `time` (s), m/s: the steady velocity plus the gust along it. It is zero when the steady
-/// velocity is zero, since a gust then has no direction.
+/// Returns the wind velocity at `time` (s), m/s: the velocity that the scene gives (scene/weather.h) plus the gust
+/// along it. It is zero where that velocity is zero, since a gust then has no direction.
 Vec3 wind_velocity(const Wind& wind, double time);
 
 }  // namespace drape

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <map>
 
+#include "scene/weather.h"
+
 namespace drape {
 namespace {
 
@@ -28,7 +30,12 @@ std::string_view no_pin(const SceneDescription& scene) {
     return scene.cloths.empty() || scene.cloths[0].pins.empty() ? "the first cloth has no pin" : "";
 }
 
+std::string_view no_steady_gravity(const SceneDescription& scene) {
+    return gravity_changes(scene) ? "gravity changes" : "";
+}
+
 std::string_view no_release(const SceneDescription& scene) {
+    if (gravity_changes(scene)) return no_steady_gravity(scene);
     return some_pin(scene, [](const Pin& pin) { return pin.release.has_value(); }) ? "" : "no pin is released";
 }
 
@@ -47,7 +54,12 @@ std::string_view no_sphere(const SceneDescription& scene) {
 
 std::string_view no_wind(const SceneDescription& scene) { return scene.wind.blows() ? "" : "no wind blows"; }
 
+std::string_view no_steady_wind(const SceneDescription& scene) {
+    return scene.wind.keys.empty() ? no_wind(scene) : "the wind changes";
+}
+
 std::string_view no_relaxation(const SceneDescription& scene) {
+    if (gravity_changes(scene)) return no_steady_gravity(scene);
     return scene.solver.method == SolverMethod::relax ? "" : "the law is that of method relax";
 }
 
@@ -108,7 +120,7 @@ std::vector<OracleKind> kinds_of_motion() {
           {"from_row", "first row of the particles", true},
           until_frame,
           {"error", "largest distance from the closed form, metres"}},
-         nothing},
+         no_steady_gravity},
         {"swing",
          "What gravity gives and damping leaves is there as motion at the fastest moment; without wind and contact.",
          {which_cloth,
@@ -116,7 +128,7 @@ std::vector<OracleKind> kinds_of_motion() {
           until_frame,
           {"least", "smallest share of the work that is kinetic energy"},
           {"most", "largest"}},
-         nothing},
+         no_steady_gravity},
         {"torque",
          "The first cloth, pinned along a vertical pole through its first particle, turns about it as the wind alone "
          "makes it.",
@@ -127,7 +139,7 @@ std::vector<OracleKind> kinds_of_motion() {
          {from_frame,
           {"degrees", "largest angle of its mean direction with the wind"},
           {"flutter", "smallest standard deviation of the free edge's middle, sideways, metres"}},
-         no_wind},
+         no_steady_wind},
         {"mirror",
          "What is mirrored in the plane x = 0 stays so.",
          {until_frame, {"error", "largest RMS distance of a particle from its partner's image, metres"}},

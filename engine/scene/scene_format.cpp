@@ -16,8 +16,11 @@ bool read_address(const SceneNode& node, SceneDescription&) {
     return node.read(ignored);
 }
 
+constexpr std::string_view key_time_help = "Seconds. Must be after the previous key's.",
+                           key_time_text = "a time in seconds";
+
 // Several keys have these values.
-const Named<Vec3> vec3{"vec3", "x, y, z; y is up.", three_numbers(any_number)};
+const Named<Vec3> vec3{"vec3", "x, y, z; y is up, or z where the scene says so.", three_numbers(any_number)};
 const Named<Vec3> direction{"direction", "x, y, z, not all zero; only the direction counts, the length does not.",
                             unit_vector()};
 const Named<Vec3> extents{"extents", "Metres along x, y, z.", three_numbers(positive)};
@@ -31,7 +34,7 @@ const Object<MotionKey> motion_key{
     "motion_key",
     "One key of a path.",
     {
-        {"t", &MotionKey::time, number(any_number), "Seconds. Must be after the previous key's.", "a time in seconds"},
+        {"t", &MotionKey::time, number(any_number), key_time_help, key_time_text},
         {"translate", &MotionKey::translate, vec3, "Metres, added to the rest pose."},
         {"rotate", &MotionKey::rotate, vec3, "Degrees: Euler angles about x, then y, then z (R = Rz Ry Rx)."},
     }};
@@ -65,13 +68,30 @@ const Object<Gust> gust{
         {"seed", &Gust::seed, integer(0, 0xFFFFFFFFu), "Picks the phases."},
     }};
 
+const Object<VectorKey> wind_key{"wind_key",
+                                 "One key of a wind that changes.",
+                                 {
+                                     {"t", &VectorKey::time, number(any_number), key_time_help, key_time_text},
+                                     {"velocity", &VectorKey::value, vec3, "m/s.", "a velocity of 3 numbers"},
+                                 }};
+
+const Object<VectorKey> gravity_key{"gravity_key",
+                                    "One key of gravity that changes.",
+                                    {
+                                        {"t", &VectorKey::time, number(any_number), key_time_help, key_time_text},
+                                        {"gravity", &VectorKey::value, vec3, "m/s^2.", "a gravity of 3 numbers"},
+                                    }};
+
 const Object<Wind> wind{
     "wind",
     "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
     "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles. A counts to twice its "
     "value at rest.",
     {
-        {"velocity", &Wind::velocity, vec3, "m/s, steady wind."},
+        {"velocity", &Wind::velocity, vec3, "m/s, steady wind. Ignored (with a warning) beside keys."},
+        {"keys", &Wind::keys, vector_keys(wind_key),
+         "Wind that changes: from key to key by a straight line, component by component; before "
+         "the first and after the last key, that key holds. A substep has the wind at its middle."},
         {"gust", &Wind::gust, gust, "Extra wind along the velocity's direction, as a function of time."},
         {"air_density", &Wind::air_density, number(not_negative), "kg/m^3."},
         {"drag", &Wind::drag, number(not_negative), "Drag coefficient Cd."},
@@ -85,7 +105,8 @@ const Object<Placement> placement{
     {
         {"origin", &Placement::origin, vec3, "Metres: particle (column 0, row 0)."},
         {"u", &Placement::u, direction, "Direction of growing column."},
-        {"v", &Placement::v, direction, "Direction of growing row; at right angles to u within 1e-6."},
+        {"v", &Placement::v, turned(direction),
+         "Direction of growing row; at right angles to u within 1e-6. Where z is up, the default is [0, 0, -1]."},
         {"scale", &Placement::scale, two_numbers(any_number),
          "Distances at the start over those at rest, along u and v: above 1 the cloth starts stretched, below "
          "compressed, below 0 turned over; 0 gathers it on a line, [0, 0] on a point. What starts on a line or a point "
@@ -174,7 +195,7 @@ const Object<Cloth> cloth{
         {"grid", &Cloth::grid, two_integers(2, grid_axis_limit), "Particles: columns, rows."},
         {"size", &Cloth::size, two_numbers(positive),
          "Metres along the columns' direction u and the rows' direction v."},
-        {"placement", &Cloth::placement, placement, "Where the flat cloth starts."},
+        {"placement", &Cloth::placement, turned(placement), "Where the flat cloth starts."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
@@ -229,7 +250,8 @@ std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
 const Object<Collider> plane{
     "plane", "The cloth stays where normal . x >= offset, with the normal made unit length first.",
     keys_of<Plane>({
-        {"normal", &Plane::normal, direction, "Points to the outside."},
+        {"normal", &Plane::normal, turned(direction),
+         "Points to the outside. Where z is up, the default is [0, 0, 1]."},
         {"offset", &Plane::offset, number(any_number), "Metres from the origin along the unit normal."},
     })};
 const Object<Collider> sphere{"sphere", "A solid ball.",
@@ -392,10 +414,10 @@ const Object<SolverSettings> solver{
 
 const Object<Camera> camera{
     "camera",
-    "A pinhole camera, upright (y is up).",
+    "A pinhole camera, upright. Where z is up, the default position is [0, -3, 1.5] and the target [0, 0, 1].",
     {
-        {"position", &Camera::position, vec3, "Metres."},
-        {"target", &Camera::target, vec3, "Metres: the point in the middle of the picture; not the position."},
+        {"position", &Camera::position, turned(vec3), "Metres."},
+        {"target", &Camera::target, turned(vec3), "Metres: the point in the middle of the picture; not the position."},
         {"fov", &Camera::fov, number({0.0, 170.0, true}), "Degrees, vertical field of view."},
     },
     check_camera};
@@ -404,7 +426,8 @@ const Object<DirectionalLight> light{
     "light",
     "A directional light.",
     {
-        {"direction", &DirectionalLight::direction, direction, "The way the light travels."},
+        {"direction", &DirectionalLight::direction, turned(direction),
+         "The way the light travels. Where z is up, the default is turned with the world."},
         {"color", &DirectionalLight::color, color, "sRGB."},
         {"intensity", &DirectionalLight::intensity, number(not_negative), "Factor on the colour."},
     }};
@@ -431,7 +454,7 @@ const Object<Oracle> oracle{
 
 const Object<SceneDescription> scene{
     "scene",
-    "A cloth scene. JSON with // comments; SI units, degrees, y up. Unknown keys are errors. Numbers are at most "
+    "A cloth scene. JSON with // comments; SI units, degrees. Unknown keys are errors. Numbers are at most "
     "3.4e38 in magnitude (single precision). At most 16 MiB, 500000 values and 1000 keys in an object. In a substep "
     "no "
     "cloth may fall by more than 10000 of its edge lengths: gravity / (fps substeps)^2 (method auto: of 4096 substeps) "
@@ -440,7 +463,13 @@ const Object<SceneDescription> scene{
         {"$schema", text().text, read_address, "Address of this schema, for editors. Ignored."},
         {"name", &SceneDescription::name, text(), "Name of the scene."},
         {"time", &SceneDescription::time, time_settings, "Frames and their rate."},
-        {"gravity", &SceneDescription::gravity, vec3, "m/s^2."},
+        {"up", &SceneDescription::up, choice<Up>(up_spellings),
+         "The axis that points up. All coordinates of the scene, and all that come out of it, are those of its world. "
+         "Defaults that have a direction turn with it about x: what is y becomes z, what is z becomes -y."},
+        {"gravity", &SceneDescription::gravity, turned(vec3),
+         "m/s^2. Where z is up, the default is [0, 0, -9.81]. Ignored (with a warning) beside gravity_keys."},
+        {"gravity_keys", &SceneDescription::gravity_keys, vector_keys(gravity_key),
+         "Gravity that changes; between, before and after its keys as a wind does."},
         {"wind", &SceneDescription::wind, wind, "Wind; none by default."},
         {"cloths", &SceneDescription::cloths, list<Cloth>(cloth, cloth_count, 1, 1024),
          "The cloths. Where one has self_collision they meet each other; else they pass through each other and "
@@ -456,7 +485,8 @@ const Object<SceneDescription> scene{
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
         {"camera", &SceneDescription::camera, optional<Camera>(camera),
          "The camera. Absent: one that holds the cloths where they start, hang and land, and the colliders."},
-        {"lights", &SceneDescription::lights, list<DirectionalLight>(light, "an array of at most 4 lights", 0, 4),
+        {"lights", &SceneDescription::lights,
+         turned(list<DirectionalLight>(light, "an array of at most 4 lights", 0, 4)),
          "Directional lights; the first casts shadows. Absent: a warm key from the left and a cool fill from the "
          "right."},
         {"ambient", &SceneDescription::ambient, color,

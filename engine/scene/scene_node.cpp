@@ -104,7 +104,10 @@ std::vector<SceneError> first_errors(std::vector<SceneError> errors, std::size_t
 }
 
 SceneNode::SceneNode(SceneReport& report, const Json::Value& root)
-    : SceneNode(report, &root, static_cast<std::size_t>(root.getOffsetStart()), "") {}
+    : SceneNode(report, &root, static_cast<std::size_t>(root.getOffsetStart()), "") {
+    const SceneNode up = member("up");
+    if (up && up.value_->isString() && up.value_->asString() == "z") report.up = Up::z;  // its key reports any other
+}
 
 SceneNode::SceneNode(SceneReport& report, const Json::Value* value, std::size_t offset, std::string pointer)
     : report_(&report), value_(value), offset_(offset), pointer_(std::move(pointer)) {}
@@ -146,6 +149,13 @@ void SceneNode::note_default(const std::string& key, std::string value) const {
 void SceneNode::note_better(const std::string& key, std::string value) const {
     if (report_->missing == nullptr || report_->document.written(*member(key).value()) == value) return;
     report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
+}
+
+void SceneNode::note_own_default(std::string value) const {
+    if (report_->missing == nullptr) return;
+    const std::size_t slash = pointer_.rfind('/');
+    report_->missing->insert(report_->missing->begin(),
+                             {pointer_.substr(0, slash), pointer_.substr(slash + 1), std::move(value)});
 }
 
 SceneNode SceneNode::member(std::string_view key) const {

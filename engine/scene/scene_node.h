@@ -57,6 +57,7 @@ struct SceneReport {
     ErrorList errors;
     ErrorList warnings;
     std::vector<MissingKey>* missing = nullptr;  ///< null where they are not wanted
+    Up up = Up::y;                               ///< the scene's, in whose world defaults are
 };
 
 /// The numbers that a field may have. The kernels work in single precision, so "finite" means finite there.
@@ -96,6 +97,9 @@ class SceneNode {
     void note_default(const std::string& key, std::string value) const;
     /// Tells the report that a member is better written as `value` (JSON), where that is not what it says.
     void note_better(const std::string& key, std::string value) const;
+    /// The same for the missing key that this is.
+    void note_own_default(std::string value) const;
+    Up up() const { return report_->up; }
     /// Returns a member of an object, which is absent where there is none.
     SceneNode member(std::string_view key) const;
 

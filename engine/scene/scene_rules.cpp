@@ -22,19 +22,39 @@ double shape_quality(const std::array<Vec3, 3>& t) {
     return longest > 0 ? std::sqrt(squared(normal)) / longest : 0;
 }
 
+constexpr std::string_view one_key = "an array of at least 1 key";
+constexpr std::size_t most_keys = 1'000'000;
+
+/// Reports each key of the list at `node` that is not after the one before it.
+template <class Key>
+bool times_increase(const SceneNode& node, const std::vector<Key>& keys) {
+    bool fits = true;
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        const SceneNode time = node.element(i).member("t");
+        const double before = keys[i - 1].time;
+        if (time.is_number() && node.element(i - 1).member("t").is_number() && keys[i].time <= before)
+            fits = time.fail_expected(fmt::format("a time after the previous key's {}", before));
+    }
+    return fits;
+}
+
 }  // namespace
 
+Value<std::vector<VectorKey>> vector_keys(const Value<VectorKey>& key) {
+    Value<std::vector<VectorKey>> keys = list(key, one_key, 1, most_keys);
+    keys.write = nullptr;  // an empty list is no value: without keys nothing changes
+    keys.read = [read = keys.read](const SceneNode& node, std::vector<VectorKey>& field) {
+        const bool fits = read(node, field);
+        return times_increase(node, field) && fits;
+    };
+    return keys;
+}
+
 Value<MotionPath> motion_path(const Value<MotionKey>& key) {
-    const Value<std::vector<MotionKey>> keys = list(key, "an array of at least 1 key", 1, 1'000'000);
+    const Value<std::vector<MotionKey>> keys = list(key, one_key, 1, most_keys);
     return {keys.text, [keys](const SceneNode& node, MotionPath& path) {
-                bool fits = keys.read(node, path.keys);
-                for (std::size_t i = 1; i < path.keys.size(); ++i) {
-                    const SceneNode time = node.element(i).member("t");
-                    const double before = path.keys[i - 1].time;
-                    if (time.is_number() && node.element(i - 1).member("t").is_number() && path.keys[i].time <= before)
-                        fits = time.fail_expected(fmt::format("a time after the previous key's {}", before));
-                }
-                return fits;
+                const bool fits = keys.read(node, path.keys);
+                return times_increase(node, path.keys) && fits;
             }};
 }
 
@@ -89,7 +109,9 @@ bool check_cutter_times(const SceneNode& node, Cutter& cutter) {
 }
 
 bool check_wind(const Members& members, Wind& wind) {
-    if (members.fit({"velocity"}) && !wind.blows() && wind.gust.amplitude > 0.0)
+    if (members["velocity"] && members["keys"])
+        members["velocity"].warn("velocity is ignored beside keys, which have the wind's");
+    if (members.fit({"velocity", "keys"}) && !wind.blows() && wind.gust.amplitude > 0.0)
         members["gust"].warn("the gust does nothing: it blows along the wind's velocity, which is zero");
     return true;
 }

@@ -12,6 +12,8 @@ Value<std::string> file_name();
 /// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
+/// The keys of a vector that changes, in the order of their times.
+Value<std::vector<VectorKey>> vector_keys(const Value<VectorKey>& key);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
 /// The value true means all defaults, false means nothing.

@@ -14,6 +14,7 @@
 
 #include "scene/scene_format.h"
 #include "scene/scene_node.h"
+#include "scene/world.h"
 
 namespace drape {
 
@@ -76,6 +77,26 @@ template <class T>
 Value<T> without_default(Value<T> value) {
     value.write = nullptr;
     return value;
+}
+
+// A default that has a direction becomes this in another world.
+inline void turn(Up up, Vec3& v) { v = in_world(up, v); }
+inline void turn(Up up, Placement& placement) { turn(up, placement.v); }
+inline void turn(Up up, std::vector<DirectionalLight>& lights) {
+    for (DirectionalLight& light : lights) turn(up, light.direction);
+}
+
+/// Returns the same value with a default that turns with the scene's world.
+template <class T>
+Value<T> turned(const Value<T>& value) {
+    Value<T> result = value;
+    result.read = [value](const SceneNode& node, T& field) {
+        if (node || node.up() == Up::y) return value.read(node, field);
+        turn(node.up(), field);
+        if (value.write) node.note_own_default(value.write(field));
+        return value.read(node, field);
+    };
+    return result;
 }
 
 /// An array of `least` to `most` items; an error says that `what` was expected; `fresh` is an element without keys.
@@ -225,5 +246,14 @@ class Object {
     Rule rule_;
     Value<T> value_;
 };
+
+template <class T>
+Value<T> turned(const Named<T>& named) {
+    return turned(named.value);
+}
+template <class T>
+Value<T> turned(const Object<T>& object) {
+    return turned(static_cast<const Value<T>&>(object));
+}
 
 }  // namespace drape

@@ -71,10 +71,10 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& at
     if (options_.meanwhile) options_.meanwhile();
 }
 
-FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t substeps) {
+FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps) {
     slots_.wait(slot);
     const Rung& rung = this->rung(substeps);
-    Judged judged{solver_.statistics(*pool_, slot, *rung.model), {.substeps = substeps}, {}};
+    Judged judged{solver_.statistics(*pool_, slot, frame, *rung.model), {.substeps = substeps}, {}};
     for (graph::Timing& timing : rung.frame.recorded->timings(slot))
         judged.timings.push_back({std::move(timing.name), timing.milliseconds});
     judged.self_record = solver_.self_record(*pool_, slot);
@@ -93,8 +93,8 @@ void FrameLoop::run_coarse(const Attempt& attempt, Judgement& judgement, const A
         if (k == 0) run.before = attempt.keeps ? AttemptStep::keep : AttemptStep::restore;
         if (k + 1 == segment.frame_count) run.after = AttemptStep::remember;
         submit_run(slot, run, attempt, asked);
-        judgement.coarse_stretch =
-            std::max(judgement.coarse_stretch, stretch_judgement(model_, take_judged(slot, run.substeps).statistics));
+        judgement.coarse_stretch = std::max(
+            judgement.coarse_stretch, stretch_judgement(model_, take_judged(slot, run.frame, run.substeps).statistics));
     }
 }
 
@@ -126,7 +126,7 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
         if (last && segment.probes) run.after = AttemptStep::compare;
         submit_run(slot, run, attempt, asked);
         deliver(next_slot_, finished);  // hands out the frame before while this one is simulated
-        judged = take_judged(slot, run.substeps);
+        judged = take_judged(slot, frame, run.substeps);
         judgement.passage = std::max(
             judgement.passage, passage_judgement(model_, frame, run.substeps,
                                                  k == 0 ? before_ : attempt_statistics_.back(), judged.statistics));

@@ -279,7 +279,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
     if (done.output && options_.velocities)
         result.velocities = velocities(slot, result.effort.asleep ? 0 : done.substeps);
     if (done.output && options_.normals) result.normals = solver_.readback(*pool_, slot, "normal");
-    if (!done.judged && needs(done.kind).statistics) result.statistics = solver_.statistics(*pool_, slot);
+    if (!done.judged && needs(done.kind).statistics) result.statistics = solver_.statistics(*pool_, slot, done.frame);
     if (done.output) return finished(result);
     // A closed loop's frame may still be done again.
     if (options_.on_passed_over && (!control_ || done.frame == 0)) options_.on_passed_over(result);

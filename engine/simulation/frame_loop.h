@@ -239,7 +239,7 @@ class FrameLoop {
     Judged run_fine(const Attempt& attempt, Judgement& judgement, const Asked& asked);
     double motion_of(std::uint32_t slot);
     void submit_run(std::uint32_t slot, const Run& run, const Attempt& attempt, const Asked& asked);
-    Judged take_judged(std::uint32_t slot, std::uint32_t substeps);
+    Judged take_judged(std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps);
     void submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished);
     void keep_segment(std::uint32_t frame, Judged single, const Asked& asked);
     // These are in companion_run.cpp.

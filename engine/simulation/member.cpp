@@ -32,6 +32,11 @@ SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& co
     return scene;
 }
 
+ModelOptions with_air(ModelOptions options, const EnsembleControls& controls) {
+    options.air = options.air || controls.wind;
+    return options;
+}
+
 std::size_t pin_count(const SimulationModel& model) {
     std::size_t count = 0;
     for (const Cloth& cloth : model.scene.cloths) count += cloth.pins.size();
@@ -92,8 +97,7 @@ void MemberMotion::put_into(SimulationModel& model) const {
 }
 
 Member::Member(const SceneDescription& scene, const EnsembleControls& controls, const ModelOptions& options)
-    : model(able_to_move(checked_scene(scene), controls), options), start(model) {
-    model.windy = model.windy || controls.wind;
+    : model(able_to_move(checked_scene(scene), controls), with_air(options, controls)), start(model) {
     begin_anew();
 }
 
@@ -127,6 +131,7 @@ void act(const EnsembleActions& actions, std::size_t number, Member& member) {
         std::copy_n(actions.wind.begin() + static_cast<std::ptrdiff_t>(3 * number), 3,
                     model.scene.wind.velocity.begin());
         model.scene.wind.gust.amplitude = 0;
+        model.scene.wind.keys.clear();
     }
     const auto move_next = [&](MotionPath& path, std::span<const double> numbers, std::size_t first, bool acted) {
         if (!numbers.empty())

@@ -19,15 +19,22 @@ struct MemberMotion {
     template <class Archive>
     void transfer(Archive& archive) {
         archive(wind.velocity[0], wind.velocity[1], wind.velocity[2], wind.gust.amplitude);
+        transfer_keys(archive, wind.keys,
+                      [&](VectorKey& key) { archive(key.time, key.value[0], key.value[1], key.value[2]); });
         for (std::vector<MotionPath>* paths : {&pins, &colliders})
-            for (MotionPath& path : *paths) {
-                auto count = static_cast<std::uint64_t>(path.keys.size());
-                archive(count);
-                path.keys.resize(count < most_keys ? count : 0);
-                for (MotionKey& key : path.keys)
+            for (MotionPath& path : *paths)
+                transfer_keys(archive, path.keys, [&](MotionKey& key) {
                     archive(key.time, key.translate[0], key.translate[1], key.translate[2], key.rotate[0],
                             key.rotate[1], key.rotate[2]);
-            }
+                });
+    }
+
+    template <class Archive, class Key, class Transfer>
+    static void transfer_keys(Archive& archive, std::vector<Key>& keys, const Transfer& transfer_key) {
+        auto count = static_cast<std::uint64_t>(keys.size());
+        archive(count);
+        keys.resize(count < most_keys ? count : 0);
+        for (Key& key : keys) transfer_key(key);
     }
 
     static constexpr std::uint64_t most_keys = 1'000'000;

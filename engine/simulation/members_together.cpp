@@ -169,7 +169,7 @@ class MembersTogether : public MemberRuns {
         for (std::size_t k = 0; k < cloths_each_; ++k) {
             glsl::StatisticsRecord record;
             std::memcpy(&record, records_[number * cloths_each_ + k].data(), sizeof record);
-            member.statistics.push_back(cloth_statistics(member.model, member.model.cloths[k], record));
+            member.statistics.push_back(cloth_statistics(member.model, member.model.cloths[k], record, member.frame));
         }
     }
 

@@ -20,6 +20,14 @@ bool is_box_of(const IndexBox& box, const Cloth& cloth) {
            box.last[1] < cloth.grid[1];
 }
 
+bool are_keys(const std::vector<VectorKey>& keys) {
+    const auto is_number = [](const VectorKey& key) {
+        return std::isfinite(key.time) && std::ranges::all_of(key.value, [](double x) { return std::isfinite(x); });
+    };
+    const auto not_before = [](const VectorKey& a, const VectorKey& b) { return a.time >= b.time; };
+    return std::ranges::all_of(keys, is_number) && std::ranges::adjacent_find(keys, not_before) == keys.end();
+}
+
 }  // namespace
 
 const SceneDescription& checked_scene(const SceneDescription& scene) {
@@ -45,6 +53,8 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
         for (std::size_t hole = 0; hole < cloth.holes.size(); ++hole)
             expect(is_box_of(cloth.holes[hole], cloth), fmt::format("{}/holes/{}", at, hole), "particles of the grid");
     }
+    expect(are_keys(scene.gravity_keys), "/gravity_keys", "numbers at times that increase");
+    expect(are_keys(scene.wind.keys), "/wind/keys", "numbers at times that increase");
     expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
     expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",

@@ -126,8 +126,8 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     for (const SkippedWork& work : run.skipped()) graph.skip(work.what, work.reason);
     for (const Compromise& each : run.compromises()) graph.compromise(each.what, each.reason);
     if (model_.windy)
-        inputs_.wind =
-            graph.buffer<glsl::vec4>("wind", model_.member_count * model_.most_substeps(), Lifetime::host_input);
+        inputs_.wind = graph.buffer<glsl::vec4>(
+            "wind", model_.member_count * model_.most_substeps() * (model_.weighs ? 2 : 1), Lifetime::host_input);
     if (model_.has_companions())
         inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
@@ -361,13 +361,13 @@ std::vector<std::span<const std::byte>> ClothSolver::statistics_records(const gr
 }
 
 std::vector<ClothStatistics> ClothSolver::statistics(const graph::ResourcePool& pool, std::uint32_t slot,
-                                                     const SimulationModel& run) const {
+                                                     std::uint32_t frame, const SimulationModel& run) const {
     std::vector<ClothStatistics> all;
     const std::vector<std::span<const std::byte>> records = statistics_records(pool, slot);
     for (const ClothModel& cloth : run.cloths) {
         glsl::StatisticsRecord record;
         std::memcpy(&record, records[all.size()].data(), sizeof record);
-        all.push_back(cloth_statistics(run, cloth, record));
+        all.push_back(cloth_statistics(run, cloth, record, frame));
         if (!run.adaptive()) continue;
         glsl::uvec4 used;
         std::memcpy(&used, pool.buffer(iteration_readback_name(cloth.name), slot).mapped().data(), sizeof used);

@@ -111,11 +111,13 @@ class ClothSolver {
     void write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
                        const std::vector<glsl::SubstepChange>& changes) const;
 
-    /// Returns each cloth's statistics of the slot's last finished frame, whose graph must have had `add_statistics`.
-    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot) const {
-        return statistics(pool, slot, model_);
-    }
+    /// Returns each cloth's statistics of the slot's last finished frame, which is `frame`, and whose graph must have
+    /// had `add_statistics`.
     std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot,
+                                            std::uint32_t frame) const {
+        return statistics(pool, slot, frame, model_);
+    }
+    std::vector<ClothStatistics> statistics(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t frame,
                                             const SimulationModel& run) const;
 
     /// Returns the record of contact between the cloths in the slot's last simulated frame, zeros where there is none.

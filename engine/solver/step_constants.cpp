@@ -48,6 +48,7 @@ constexpr ConstantRow constant_rows[] = {
     {"strip_columns", [](Place p) { return p.device.strip_columns(); }},
     {"strip_length", [](Place p) { return p.device.strip_length(); }},
     {"strip_rows", [](Place p) { return p.device.strip_rows(step_rounds(p)); }},
+    {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
     {"turns", [](Place p) { return p.step.turns ? 1u : 0u; }},
 };
 

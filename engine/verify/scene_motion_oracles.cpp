@@ -8,6 +8,8 @@
 #include "scene/gust.h"
 #include "scene/motion.h"
 #include "scene/surface_distance.h"
+#include "scene/weather.h"
+#include "scene/world.h"
 #include "shared/collider_types.h"
 #include "verify/scene_oracles.h"
 
@@ -22,7 +24,7 @@ Vec3 flown(const SceneDescription& scene, const Cloth& cloth, double t) {
     const double c = cloth.damping;
     const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // way by a unit start velocity
     const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // way by unit gravity
-    return plus(times(gone, cloth.velocity), times(fallen, scene.gravity));
+    return plus(times(gone, cloth.velocity), times(fallen, gravity_at(scene, 0)));
 }
 
 /// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error` metres.
@@ -53,7 +55,7 @@ Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_
         const Vec3 v = run.velocity_after(frame, cloth, particle);
         const Vec3 x = times(0.5, plus(run.at(frame, cloth, particle), run.at(frame + 1, cloth, particle)));
         energy.kinetic += 0.5 * measure.mass[particle] * dot(v, v);
-        energy.potential -= measure.mass[particle] * dot(run.scene.gravity, x);
+        energy.potential -= measure.mass[particle] * dot(gravity_at(run.scene, 0), x);
     }
     return energy;
 }
@@ -82,6 +84,9 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
                         limits["least"], limits["most"])};
 }
 
+/// Returns the part of a vector about the vertical.
+double about_up(const SceneRun& run, const Vec3& v) { return v[up_axis(run.scene.up)]; }
+
 /// Returns the torque of the wind about the vertical through `pole`, N m, by the scene format's force law.
 double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corners, std::size_t frame,
                    const Vec3& pole) {
@@ -104,7 +109,7 @@ double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corner
         const Vec3 force =
             times(0.5 * wind.air_density * area, plus(times((wind.drag - wind.lift) * dot(relative, normal), relative),
                                                       times(wind.lift * dot(relative, relative), normal)));
-        torque += cross(minus(center, pole), force)[1];
+        torque += about_up(run, cross(minus(center, pole), force));
     }
     return torque;
 }
@@ -114,7 +119,7 @@ double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::s
     double sum = 0;
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
         const Vec3 x = times(0.5, plus(run.at(frame, 0, particle), run.at(frame + 1, 0, particle)));
-        sum += measure.mass[particle] * cross(minus(x, pole), run.velocity_after(frame, 0, particle))[1];
+        sum += measure.mass[particle] * about_up(run, cross(minus(x, pole), run.velocity_after(frame, 0, particle)));
     }
     return sum;
 }
@@ -148,19 +153,20 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
 /// (standard deviation) at least.
 Verdict blown(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
-    const Vec3 pole = run.at(0, 0, 0), wind = run.scene.wind.velocity;
-    const double speed = std::hypot(wind[0], wind[2]);
+    const Vec3 pole = run.at(0, 0, 0), up = in_world(run.scene.up, {0, 1, 0}), blows = run.scene.wind.velocity;
+    const Vec3 wind = minus(blows, times(dot(blows, up), up)), beside = cross(wind, up);
+    const double speed = length(wind);
     const std::size_t edge = measure.grid.particle(measure.grid.columns() - 1, measure.grid.rows() / 2);
     double along = 0, across = 0;
     std::vector<double> sideways;
     for (std::size_t frame = limits.index("from_frame"); frame < run.frames.size(); ++frame) {
         for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
             const Vec3 r = minus(run.at(frame, 0, particle), pole);
-            along += measure.mass[particle] * (r[0] * wind[0] + r[2] * wind[2]);
-            across += measure.mass[particle] * (r[2] * wind[0] - r[0] * wind[2]);
+            along += measure.mass[particle] * dot(r, wind);
+            across += measure.mass[particle] * dot(r, beside);
         }
         const Vec3 r = minus(run.at(frame, 0, edge), pole);
-        sideways.push_back((r[2] * wind[0] - r[0] * wind[2]) / speed);
+        sideways.push_back(dot(r, beside) / speed);
     }
     if (sideways.empty()) return {false, "no frames"};
     const double angle = std::atan2(across, along) * degrees, center = mean(sideways);
@@ -200,16 +206,18 @@ Verdict carried(const SceneRun& run, const Limits& limits) {
     const Sphere& sphere = std::get<Sphere>(collider.shape);
     const auto heading = [&](std::size_t frame) {
         const auto turn = collider_pose(collider, run.time(frame)).rotation;
-        return std::atan2(turn[2], turn[0]);
+        const Vec3 x = with_y_up(run.scene.up, {turn[0], turn[3], turn[6]});
+        return std::atan2(-x[2], x[0]);
     };
     double cloth_turn = 0, sphere_turn = 0, worst = 0;
     for (std::size_t frame = 0; frame + 1 < run.frames.size(); ++frame) {
         double swept = 0, weight = 0;
         for (std::size_t particle = 0; particle < run.frames[frame][0].size(); ++particle) {
-            const Vec3 rest = minus(run.at(0, 0, particle), sphere.center);
+            const auto from_center = [&](std::size_t then) {
+                return with_y_up(run.scene.up, minus(run.at(then, 0, particle), sphere.center));
+            };
+            const Vec3 rest = from_center(0), a = from_center(frame), b = from_center(frame + 1);
             if (std::hypot(rest[0], rest[2]) > limits["radius"]) continue;
-            const Vec3 a = minus(run.at(frame, 0, particle), sphere.center);
-            const Vec3 b = minus(run.at(frame + 1, 0, particle), sphere.center);
             swept += a[2] * b[0] - a[0] * b[2];
             weight += a[0] * b[0] + a[2] * b[2];
         }

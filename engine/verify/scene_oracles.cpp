@@ -15,6 +15,8 @@
 #include "scene/start_crossings.h"
 #include "scene/surface_distance.h"
 #include "scene/triangle_crossings.h"
+#include "scene/weather.h"
+#include "scene/world.h"
 
 namespace drape::verify {
 
@@ -170,6 +172,7 @@ Verdict drawn(const SceneRun& run, const Limits& limits) {
 /// A pin holds to the bit until its release, and then its particle falls: `least` to `most` times what it would fall
 /// freely in `seconds`.
 Verdict released(const SceneRun& run, const Limits& limits) {
+    const std::size_t up = up_axis(run.scene.up);
     std::size_t count = 0, early = 0;
     double slowest = 1e300, fastest = -1e300;
     for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
@@ -180,8 +183,8 @@ Verdict released(const SceneRun& run, const Limits& limits) {
         const auto then =
             static_cast<std::size_t>(std::lround((*pin.release + limits["seconds"]) * run.scene.time.fps));
         const double dropped =
-            run.at(0, cloth, particle)[1] - run.at(std::min(then, run.last_frame()), cloth, particle)[1];
-        const double ratio = dropped / (0.5 * length(run.scene.gravity) * limits["seconds"] * limits["seconds"]);
+            run.at(0, cloth, particle)[up] - run.at(std::min(then, run.last_frame()), cloth, particle)[up];
+        const double ratio = dropped / (0.5 * length(gravity_at(run.scene, 0)) * limits["seconds"] * limits["seconds"]);
         slowest = std::min(slowest, ratio);
         fastest = std::max(fastest, ratio);
     });
@@ -275,7 +278,7 @@ Verdict penetration(const SceneRun& run, const Limits& limits) {
 Verdict supported(const SceneRun& run, const Limits& limits) {
     double top = -1e300;
     for (const glsl::vec4& x : run.frames.back().at(limits.index("cloth")))
-        if (x.w != 0) top = std::max(top, static_cast<double>(x.y));
+        if (x.w != 0) top = std::max(top, Vec3{x.x, x.y, x.z}[up_axis(run.scene.up)]);
     const double above = top - limits["height"];
     return {above <= limits["above"] && above >= -limits["below"],
             fmt::format("top at {:.6f} m, {:+.2e} m from {}, allowed -{:.1e} to +{:.1e}", top, above, limits["height"],

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "scene/surface_distance.h"
+#include "scene/weather.h"
 
 namespace drape::verify {
 
@@ -116,7 +117,7 @@ double root_mean_square(const std::vector<double>& values) {
 double stretch_law(const SceneDescription& scene, std::size_t cloth) {
     const double links = scene.cloths[cloth].grid[1] - 1.0;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
-    return links * links * length(scene.gravity) * h * h /
+    return links * links * length(gravity_at(scene, 0)) * h * h /
            (2.0 * scene.solver.iterations * scene.cloths[cloth].size[1]);
 }
 

@@ -33,7 +33,8 @@ vec3 lit_by(int light, Surface surface) {
 }
 
 vec3 shaded(Surface surface, vec3 world) {
-    vec3 radiance = ambient_radiance(surface, constants.ambient.xyz, constants.ground.xyz);
+    float rise = constants.ground.w > 0.0 ? surface.normal.z : surface.normal.y;
+    vec3 radiance = ambient_radiance(surface, rise, constants.ambient.xyz, constants.ground.xyz);
     if (light_count > 0) {
         vec3 arriving = constants.light_radiance[0].xyz * visibility(world, surface.normal);
         radiance += light_radiance(surface, constants.to_light[0].xyz, arriving);

@@ -1,6 +1,6 @@
 // Every surface in the picture is shaded by this formula, readable by GLSL and C++.
 //
-//   radiance = albedo * O * (S (1 + n.y) / 2 + G (1 - n.y) / 2)   ambient: sky above, ground below (hemisphere light)
+//   radiance = albedo * O * (S (1 + n.u) / 2 + G (1 - n.u) / 2)   ambient: sky above, ground below (hemisphere light)
 //            + sum over lights, V = share of the first light that arrives (shadow map), c = n.l:
 //                L V albedo * c                      c > 0         Lambert
 //                L V albedo * transmission * -c      c < 0         light through thin cloth
@@ -8,9 +8,9 @@
 //                                                                  h = unit(l + v)
 //            + albedo * S * sheen * (1 - n.v)^4                    fibres at grazing angles
 //
-// n: unit normal of the side that faces the eye, l: unit vector to the light, v: unit vector to the eye, S, G: ambient
-// of sky and ground, O: openness, the share of the surroundings that folds leave free, L: light colour times intensity;
-// all colours linear. tone.h makes the picture's colours of it.
+// n: unit normal of the side that faces the eye, u: up in the world, l: unit vector to the light, v: unit vector to the
+// eye, S, G: ambient of sky and ground, O: openness, the share of the surroundings that folds leave free, L: light
+// colour times intensity; all colours linear. tone.h makes the picture's colours of it.
 #ifndef DRAPE_SHADING_H
 #define DRAPE_SHADING_H
 
@@ -33,10 +33,11 @@ SHARED float cosine(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; 
 
 SHARED float clamped(float x) { return x > 0.0f ? x : 0.0f; }
 
-SHARED vec3 ambient_radiance(Surface surface, vec3 sky, vec3 ground) {
+/// `rise`: n.u
+SHARED vec3 ambient_radiance(Surface surface, float rise, vec3 sky, vec3 ground) {
     float grazing = 1.0f - clamped(cosine(surface.normal, surface.to_eye));
     float sheen = surface.sheen * grazing * grazing * grazing * grazing;
-    float up = 0.5f + 0.5f * surface.normal.y;
+    float up = 0.5f + 0.5f * rise;
     return surface.albedo * (sky * (surface.openness * up + sheen) + ground * (surface.openness * (1.0f - up)));
 }
 

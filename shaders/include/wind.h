@@ -63,6 +63,13 @@ SHARED WindForce add_share(WindForce sum, WindForce share) {
     return WindForce(force, drag);
 }
 
+/// `sum` plus the weight of a particle under `gravity`, of whose inverse mass an inner particle's is 1. One that no
+/// force moves has inverse mass 0, and gets none.
+SHARED vec3 add_weight(vec3 sum, vec3 gravity, float inner_mass, float inverse_mass) {
+    precise vec3 total = sum + gravity * (inner_mass / inverse_mass);
+    return inverse_mass > 0.0f ? total : sum;
+}
+
 /// `sum` plus a triangle's area vector (twice its area times its normal).
 SHARED vec3 add_area_vector(vec3 sum, vec3 p0, vec3 p1, vec3 p2) {
     precise vec3 total = sum + ordered_cross(p1 - p0, p2 - p0);

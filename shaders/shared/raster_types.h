@@ -33,7 +33,7 @@ struct FrameConstants {
     vec4 shadow_from_world[3];  // rows: x, y in texels, z 0 (near the light) .. 1
     vec4 eye;                   // xyz: camera position; w: 0
     vec4 ambient;               // xyz: of the sky, linear; w: size of a shadow texel, m
-    vec4 ground;                // xyz: ambient of the sky, linear; w: size of a shadow texel, m
+    vec4 ground;                // xyz: ambient of the ground, linear; w: 1 where z is up in the world, 0 where y is
     vec4 background;            // xyz: radiance; w: height of the picture, pixels
     vec4 fade;                  // xyz: centre of the ground's fade; w: radius, m
     vec4 to_light[4];           // xyz: unit, towards the light

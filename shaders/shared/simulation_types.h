@@ -94,6 +94,8 @@ struct WindPush {
     float lift_coefficient;  // air_density Cl / 2
     float area_limit;        // m^2, largest area of a triangle that the wind feels, twice its area at rest
     int first;               // index of the first substep's wind, of the cloth's own scene
+    float inner_mass;        // kg, of an inner particle
+    float unused;
 };
 
 struct CollisionPush {

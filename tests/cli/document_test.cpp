@@ -35,7 +35,7 @@ TEST(FirstScene, EveryDocumentsSceneIsGoodAndRendersToItsEnd) {
     ASSERT_EQ(scenes.size(), 1u);
     for (const std::string& scene : blocks(read_text(repository / "engine/docs/first_scene.md"), "json"))
         scenes.push_back(scene);
-    ASSERT_EQ(scenes.size(), 4u);
+    ASSERT_EQ(scenes.size(), 5u);
     for (const std::string& scene : scenes) {
         SCOPED_TRACE(scene);
         write_text(folder / "my.json", scene);

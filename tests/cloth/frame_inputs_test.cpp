@@ -29,5 +29,28 @@ TEST(FrameInputs, TheWindOfASubstepIsThatOfItsMiddle) {
     }
 }
 
+TEST(FrameInputs, GravityThatChangesFollowsTheWindOfASubstep) {
+    SceneDescription scene = test::sheet(5, 5, 1, 1, 4);
+    scene.gravity_keys = {{0, {0, -10, 0}}, {1, {2, 0, 5}}};
+    const SimulationModel model(scene);
+    ASSERT_TRUE(model.windy && model.weighs);
+    EXPECT_EQ(model.cloths[0].wind.drag_coefficient, 0) << "there is no air";
+    for (const std::uint32_t frame : {1u, 7u, 90u}) {
+        const FrameInputs inputs = frame_inputs(model, frame);
+        ASSERT_EQ(inputs.wind.size(), 8u);
+        for (std::size_t substep = 0; substep < 4; ++substep) {
+            const double middle = (frame - 1 + (static_cast<double>(substep) + 0.5) / 4) / scene.time.fps;
+            const glsl::vec4 blows = inputs.wind[2 * substep], more = inputs.wind[2 * substep + 1];
+            const double share = std::min(middle, 1.0);
+            EXPECT_EQ(blows.x, 0);
+            EXPECT_NEAR(double(more.x), 2 * share, 1e-6);
+            EXPECT_NEAR(double(more.y), 10 * share, 1e-6);
+            EXPECT_NEAR(double(more.z), 5 * share, 1e-6);
+        }
+    }
+    scene.gravity_keys[1].value = scene.gravity_keys[0].value;
+    EXPECT_FALSE(SimulationModel(scene).windy) << "nothing changes";
+}
+
 }  // namespace
 }  // namespace drape

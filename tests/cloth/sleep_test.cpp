@@ -73,9 +73,12 @@ TEST(SleepTest, AllThatChangesIsNotQuiet) {
     released.cloths[0].pins[0].release = 1.495;
     cut.cutters.resize(1);
     cut.cutters[0].begin = 1.2, cut.cutters[0].end = 1.6;
+    SceneDescription turning = hanging(), heavier = hanging();
+    turning.wind.keys = {{1, {3, 0, 0}}, {2, {0, 0, 3}}};
+    heavier.gravity_keys = {{1, {0, -2, 0}}, {2, {0, -9, 0}}};
     windy.wind.velocity = gusty.wind.velocity = {3, 0, 0};
     gusty.wind.gust.amplitude = 1;
-    for (const SceneDescription& scene : {pulled, pushed, released, cut}) {
+    for (const SceneDescription& scene : {pulled, pushed, released, cut, turning, heavier}) {
         EXPECT_TRUE(is_quiet(scene, 1));
         EXPECT_FALSE(is_quiet(scene, 1.5));
         EXPECT_TRUE(is_quiet(scene, 2.1));

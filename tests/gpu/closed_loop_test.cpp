@@ -126,6 +126,14 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
+TEST(ClosedLoop, InWeatherThatChanges) {
+    SceneDescription scene = hanging_by_corners(20);
+    scene.gravity_keys = {{0, {0, -9.81, 0}}, {0.15, {8, 0, 2}}};
+    scene.wind.keys = {{0.05, {0, 0, 0}}, {0.2, {1, 4, 8}}};
+    scene.solver.tolerance_motion = 0.02;
+    EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
+}
+
 /// Rigid cloth let go level buckles by whatever there is.
 TEST(ClosedLoop, CrumplingClothIsSensitive) {
     SceneDescription scene = test::sheet(17, 17, 0.3, 0.3, 1);

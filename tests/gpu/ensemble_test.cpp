@@ -162,6 +162,48 @@ TEST_F(EnsembleTest, WithoutWindAndColliders) {
     expect_each_as_alone(members, 6, true);
 }
 
+/// Wind and gravity change, in each member otherwise; actions end the wind's keys, and a restored member has them
+/// again.
+TEST_F(EnsembleTest, InWeatherThatChanges) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 4, seed);
+    double more = 0;
+    for (SceneDescription& member : members) {
+        member.gravity_keys = {{0.01, member.gravity}, {0.08, {2 + more, -3, 1}}};
+        member.wind.keys = {{0, member.wind.velocity}, {0.1, {0, more, 5}}};
+        more += 1;
+    }
+    expect_each_as_alone(members, 8, true);
+    Ensemble fresh(members, {}, library_device()), ensemble(members, {.controls = {.wind = true}}, library_device());
+    for (int frame = 0; frame < 3; ++frame) fresh.step(), ensemble.step();
+    const SimulationState saved = ensemble.save(2);
+    const std::vector<double> wind(3 * members.size(), 7.0);
+    fresh.step();
+    ensemble.step({.wind = wind});
+    EXPECT_FALSE(same_bytes(of_member(ensemble.positions(0), 2), of_member(fresh.positions(0), 2)));
+    const std::size_t two[] = {2};
+    ensemble.restore(two, std::span(&saved, 1));
+    ensemble.step();
+    EXPECT_TRUE(same_bytes(of_member(ensemble.positions(0), 2), of_member(fresh.positions(0), 2)));
+}
+
+/// In a scene whose gravity changes and that has no wind there is air once actions may move it.
+TEST_F(EnsembleTest, ActionsMoveTheAirOfASceneWithoutWind) {
+    SceneDescription scene = scene_of();
+    scene.wind = {};
+    scene.colliders.clear();
+    scene.gravity_keys = {{0, {0, -9.81, 0}}, {0.1, {0, -5, 0}}};
+    const std::vector<double> still{0, 0, 0}, strong{0, 0, 20};
+    Ensemble airless({scene}, {}, library_device()), calm({scene}, {.controls = {.wind = true}}, library_device()),
+        blown({scene}, {.controls = {.wind = true}}, library_device());
+    for (int frame = 0; frame < 6; ++frame) {
+        airless.step();
+        calm.step({.wind = still});
+        blown.step({.wind = strong});
+    }
+    EXPECT_FALSE(same_bytes(of_member(airless.positions(0), 0), of_member(calm.positions(0), 0)));
+    EXPECT_FALSE(same_bytes(of_member(blown.positions(0), 0), of_member(calm.positions(0), 0)));
+}
+
 /// Some members' colliders move, others' rest.
 TEST_F(EnsembleTest, OfMembersWhoseCollidersRestBesideOthers) {
     std::vector<SceneDescription> members = drawn(scene_of(), 4, seed);
@@ -353,6 +395,10 @@ TEST_F(EnsembleTest, MembersOfUnlikeShapeAreRefusedWithTheReason) {
     members = drawn(scene_of(), 2, seed);
     members[1].wind = {};
     EXPECT_THAT(refusal(members), HasSubstr("/wind is none, not blowing"));
+    members = drawn(
+        scene_of({"/gravity_keys=[{\"t\": 0, \"gravity\": [0, 0, 0]}, {\"t\": 1, \"gravity\": [0, 1, 0]}]"}), 2, seed);
+    members[1].gravity_keys.clear();
+    EXPECT_THAT(refusal(members), HasSubstr("/gravity_keys is steady, not changing"));
     EXPECT_THAT(refusal({}), HasSubstr("needs a member"));
     EXPECT_THAT(refusal(drawn(scene_of({"/solver/method=\"auto\""}), 2, seed), {.controls = {.pins = true}}),
                 HasSubstr("name a method"));

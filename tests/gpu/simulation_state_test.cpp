@@ -191,6 +191,15 @@ const std::string relaxed =
     with_method(named_scene, "\"relax\", \"substeps\": 3, \"iterations\": 8, \"tolerance\": 0.01");
 const std::string explicitly = with_method(named_scene, "\"explicit\", \"substeps\": 41");
 const std::string by_lines = with_method(named_scene, "\"line\", \"substeps\": 4, \"tethers\": true");
+// Wind and gravity change, in one case without any wind; a companion estimates the error.
+const std::string weather_by_auto =
+    R"({"time": {"fps": 60, "frames": 31}, "gravity_keys": [{"t": 0.1, "gravity": [0, -9.81, 0]}, {"t": 0.4, "gravity": [3, 2, 4]}],
+  "wind": {"keys": [{"t": 0, "velocity": [2, 0, 1]}, {"t": 0.3, "velocity": [-1, 0, 4]}], "gust": {"amplitude": 1}},
+  "cloths": [{"grid": [17, 14], "size": [0.6, 0.5], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "top"}]}]})";
+const std::string weather_by_lines =
+    R"({"time": {"fps": 60, "frames": 21}, "gravity_keys": [{"t": 0.1, "gravity": [0, -9.81, 0]}, {"t": 0.3, "gravity": [3, 2, 4]}],
+  "cloths": [{"grid": [17, 14], "size": [0.6, 0.5], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "top"}]}],
+  "solver": {"method": "line", "substeps": 4, "estimate_error": true}})";
 // Cloths that are alike lie in the same images.
 constexpr const char* alike_scene = R"({"time": {"fps": 60, "frames": 13}, "image": {"size": [48, 32], "samples": 1},
   "cloths": [{"grid": [9, 7], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "pins": [{"edge": "top"}]},
@@ -223,6 +232,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
                                          Case{"CutByLine", cut_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
                                          Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
                                          Case{"Alike", alike_scene, true},
+                                         Case{"WeatherByAuto", weather_by_auto.c_str()},
+                                         Case{"WeatherByLines", weather_by_lines.c_str()},
                                          Case{"PassedByLines", passed_by_lines.c_str()},
                                          Case{"PassedByAuto", passed_by_auto.c_str()}),
                          [](const auto& each) { return std::string(each.param.name); });

@@ -17,6 +17,24 @@ using test::substep_count;
 
 TEST(TwinTest, EverythingAtOnce) { compare(everything()); }
 
+/// Wind and gravity change within the frames, with wind and without, over holes, and of cloths of unlike masses.
+TEST(TwinTest, WeatherThatChanges) {
+    SceneDescription scene = everything();
+    scene.gravity_keys = {{0.02, {0, -9.81, 0}}, {0.1, {6, -2, 1}}, {0.25, {-4, 3, 0}}};
+    scene.wind.keys = {{0, {2, 0, 0}}, {0.08, {0, 0, 0}}, {0.2, {-3, 1, 6}}};
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::line, SolverMethod::explicit_steps}) {
+        scene.solver.method = method;
+        compare(scene);
+        SceneDescription airless = scene;
+        airless.wind = {};
+        airless.colliders.clear();
+        airless.cloths[0].holes = {{{10, 5}, {20, 12}}};
+        test::add_second_cloth(airless);
+        airless.cloths[1].areal_density *= 3;
+        compare(airless);
+    }
+}
+
 TEST(TwinTest, IteratedCompliantSpringsThatCarryTheirTension) {
     SceneDescription scene = everything();
     scene.solver.iterations = 3;

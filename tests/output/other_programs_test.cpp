@@ -141,6 +141,7 @@ TEST(Usda, HasPointsAndFacesByFrame) {
                              "    upAxis = \"Y\"\n", "    metersPerUnit = 1\n", "def Mesh \"flag\"\n"})
         EXPECT_THAT(flag, testing::HasSubstr(line));
     EXPECT_THAT(rag, testing::HasSubstr("def Mesh \"_2nd_rag\"\n"));
+    EXPECT_THAT(rag, testing::HasSubstr("    upAxis = \"Z\"\n"));
     for (const std::uint32_t frame : {10u, 12u, 14u})
         EXPECT_EQ(list_after(flag, "points.timeSamples", fmt::format("        {}: ", frame)), positions_of(frame, 6));
     const std::vector<float> whole(whole_flag.begin(), whole_flag.end()), cut(cut_flag.begin(), cut_flag.end());

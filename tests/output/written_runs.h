@@ -19,6 +19,7 @@ inline WrittenRun two_cloths() {
     run.scene = R"({"name": "\u00e9"})", run.parameters = R"({"method": "line"})", run.seed = 7;
     run.cloths = {{"flag", 3, 2, {0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5}, "flag"},
                   {"rag", 2, 2, {0, 2, 1, 1, 2, 3}, "2nd rag"}};
+    run.cloths[1].up = Up::z;
     return run;
 }
 

@@ -8,8 +8,10 @@ inline constexpr const char* full_scene = R"json({
   "$schema": "scene.schema.json",
   "name": "everything",
   "time": {"fps": 30, "frames": 12},
+  "up": "z",
   "gravity": [0.5, -1.62, 0.25],
-  "wind": {"velocity": [3, 0, 4], "gust": {"amplitude": 2, "period": 1.5, "seed": 7},
+  "gravity_keys": [{"t": 0, "gravity": [0.5, -1.5, 0.25]}, {"t": 1, "gravity": [0, 0, -2]}],
+  "wind": {"velocity": [3, 0, 4], "keys": [{"t": 0, "velocity": [1, 2, 2]}, {"t": 0.5, "velocity": [0, 4, 3]}], "gust": {"amplitude": 2, "period": 1.5, "seed": 7},
            "air_density": 1.1, "drag": 0.9, "lift": 0.4},
   "cloths": [
     {"name": "banner", "grid": [96, 64], "size": [1.5, 2.5],

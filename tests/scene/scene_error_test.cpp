@@ -102,8 +102,9 @@ const Malformed syntax_cases[] = {
     {"EndlessKey",
      "{\"cloths\": [{}],\n\"" + std::string(16'000'000, 'k') + "\": 0}",
      {"2:1: /" + std::string(77, 'k') +
-      "...: expected one of $schema, name, time, gravity, wind, cloths, colliders, "
-      "overlap, cutters, solver, camera, lights, ambient, ambient_ground, image, oracles, got the unknown key \"" +
+      "...: expected one of $schema, name, time, up, gravity, gravity_keys, wind, cloths, "
+      "colliders, overlap, cutters, solver, camera, lights, ambient, ambient_ground, image, oracles, got the unknown "
+      "key \"" +
       std::string(37, 'k') + "...\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Syntax, SceneErrors, ::testing::ValuesIn(syntax_cases), name_of);
@@ -291,6 +292,31 @@ const Malformed cloth_cases[] = {
       "2:47: /cloths/0/appearance/pattern: expected \"plain\" or \"checker\" or \"stripes\", got \"dots\""}},
 };
 INSTANTIATE_TEST_SUITE_P(Cloth, SceneErrors, ::testing::ValuesIn(cloth_cases), name_of);
+
+const Malformed world_cases[] = {
+    {"Up", scene("\"up\": \"x\""), {"2:7: /up: expected \"y\" or \"z\", got \"x\""}},
+    {"UpOfAnotherKind", scene("\"up\": [0, 0, 1]"), {"2:7: /up: expected \"y\" or \"z\", got [0, 0, 1]"}},
+    {"UpByAnotherName",
+     scene("\"up_axis\": \"z\""),
+     {"2:1: /up_axis: expected \"up\" (\"y\" or \"z\"), got the unknown key \"up_axis\""}},
+    {"WindKeysThatGoBack",
+     scene("\"wind\": {\"keys\": [{\"t\": 1, \"velocity\": [1, 0, 0]}, {\"t\": 0.5, \"velocity\": [1, 0, 0]}]}"),
+     {"2:58: /wind/keys/1/t: expected a time after the previous key's 1, got 0.5"}},
+    {"GravityKeysAtOneTime",
+     scene("\"gravity_keys\": [{\"t\": 1, \"gravity\": [0, -1, 0]}, {\"t\": 1, \"gravity\": [0, 1e999, 0]}]"),
+     {"2:57: /gravity_keys/1/t: expected a time after the previous key's 1, got 1",
+      "2:75: /gravity_keys/1/gravity/1: expected a number of at most 3.4e38 in magnitude, got 1e999"}},
+    {"KeysWithoutValues",
+     scene("\"wind\": {\"keys\": [{\"t\": 0}, {\"velocity\": [1, 0, 0]}]}, \"gravity_keys\": []"),
+     {"2:19: /wind/keys/0/velocity: expected a velocity of 3 numbers, got nothing",
+      "2:29: /wind/keys/1/t: expected a time in seconds, got nothing",
+      "2:72: /gravity_keys: expected an array of at least 1 key, got []"}},
+    {"GravityThatGetsTooStrong",
+     scene("\"gravity_keys\": [{\"t\": 0, \"gravity\": [0, 0, 0]}, {\"t\": 1, \"gravity\": [0, -3e38, 0]}]"),
+     {"2:17: /gravity_keys: expected less gravity: cloth \"cloth\" would fall 4.97e+27 of its edge lengths in a "
+      "substep (gravity 3e+38 m/s^2, 60 frames/s), and at most 1e+04 can be simulated"}},
+};
+INSTANTIATE_TEST_SUITE_P(World, SceneErrors, ::testing::ValuesIn(world_cases), name_of);
 
 const Malformed pin_cases[] = {
     {"NoSelector",

@@ -58,6 +58,8 @@ const Json::Value& object_schema(std::string_view name) {
 const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"time", ".time"},
                                                      {"wind", ".wind"},
+                                                     {"wind_key", ".wind.keys[1]"},
+                                                     {"gravity_key", ".gravity_keys[1]"},
                                                      {"gust", ".wind.gust"},
                                                      {"cloth", ".cloths[0]"},
                                                      {"placement", ".cloths[0].placement"},
@@ -236,7 +238,10 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
 
 TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
     const std::map<std::string_view, std::set<std::string>> without{
-        {"scene", {"$schema", "cloths", "camera"}},
+        {"scene", {"$schema", "gravity_keys", "cloths", "camera"}},
+        {"wind", {"keys"}},
+        {"wind_key", {"t", "velocity"}},
+        {"gravity_key", {"t", "gravity"}},
         {"cloth", {"name", "fabric"}},
         {"self_collision", {"thickness", "friction"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},

@@ -25,8 +25,11 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     const SceneDescription scene = scene_of(testing::full_scene);
     EXPECT_EQ(scene.name, "everything");
     EXPECT_EQ(scene.time, (TimeSettings{30, 12}));
+    EXPECT_EQ(scene.up, Up::z);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
-    EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4}));
+    EXPECT_EQ(scene.gravity_keys, (std::vector<VectorKey>{{0, {0.5, -1.5, 0.25}}, {1, {0, 0, -2}}}));
+    const std::vector<VectorKey> wind_keys{{0, {1, 2, 2}}, {0.5, {0, 4, 3}}};
+    EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4, wind_keys}));
     EXPECT_EQ(scene.overlap, Overlap::refuse);
     EXPECT_EQ(scene.solver,
               (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, true, CollideWhen::substep, true, 0.05}));

@@ -12,6 +12,7 @@
 #include "cloth/impossible_pins.h"
 #include "cloth/solver_choice.h"
 #include "scene/collider_pose.h"
+#include "scene/weather.h"
 
 namespace drape::bench {
 
@@ -39,7 +40,7 @@ double largest_of_the_last(std::span<const double> values, std::size_t count) {
 }
 
 double wind_acceleration(const Wind& wind, const Cloth& cloth) {
-    const double speed = length(wind.velocity) + std::abs(wind.gust.amplitude);
+    const double speed = length(strongest_wind(wind)) + std::abs(wind.gust.amplitude);
     if (!wind.blows()) return 0;
     return 0.5 * wind.air_density * std::max(wind.drag, wind.lift) * speed * speed / cloth.areal_density;
 }
@@ -90,8 +91,9 @@ StabilityJudge::StabilityJudge(const SimulationModel& model) : model_(model) {
         start.wave = wave;
         start.shorter = std::min(described.size[0], described.size[1]);
         const double moving = 0.5 * dot(cloth.velocity, cloth.velocity);
-        start.energy = start.mass * (moving - dot(scene.gravity, start.mean) + start.strain_speed * start.strain_speed);
-        start.scale = start.mass * (moving + length(scene.gravity) * cloth.reach() +
+        start.energy =
+            start.mass * (moving - dot(gravity_at(scene, 0), start.mean) + start.strain_speed * start.strain_speed);
+        start.scale = start.mass * (moving + length(strongest_gravity(scene)) * cloth.reach() +
                                     start.strain_speed * start.strain_speed + calm_energy);
         passive_ = passive_ && !cloth.has_motion;
         starts_.push_back(start);
@@ -102,13 +104,13 @@ double StabilityJudge::bound_of_distance(std::size_t index, double time, const C
     const ClothModel& cloth = model_.cloths[index];
     const Start& start = starts_[index];
     const double stretched = cloth.reach() * (1 + std::max(statistics.stretch.largest, 0.0));
-    const double wind = length(model_.scene.wind.velocity) + std::abs(model_.scene.wind.gust.amplitude);
+    const double wind = length(strongest_wind(model_.scene.wind)) + std::abs(model_.scene.wind.gust.amplitude);
     // Pins and colliders that move may have strained the cloth, which flies when it is let go, at that share of the
     // speed of waves.
     const double recoil = std::min(travel_ / start.shorter, std::max(start.strained, 1.0)) * start.wave;
     // Lift turns what the cloth moves by against the wind around, and takes nothing off: twice the wind's speed.
     const double speed = length(cloth.velocity) + start.strain_speed + recoil + (model_.windy ? 2 * wind : 0) + drive_;
-    const double flown = start.held ? 0 : speed * time + 0.5 * length(model_.scene.gravity) * time * time;
+    const double flown = start.held ? 0 : speed * time + 0.5 * length(strongest_gravity(model_.scene)) * time * time;
     return 1.001 * (start.distance + travel_ + 2 * stretched + flown) + 1e-3;
 }
 
@@ -158,7 +160,7 @@ void StabilityJudge::see_cloth(std::size_t index, const FinishedFrame& frame, do
         const double gained = statistics.kinetic_energy + statistics.potential_energy - start.energy;
         // Single precision adds up heights, and makes edges, that it tells only so well.
         const double strain = 2 * start.distance * std::numeric_limits<float>::epsilon() / start.edge;
-        const double rounding = start.mass * (1e-6 * length(model_.scene.gravity) * start.distance +
+        const double rounding = start.mass * (1e-6 * length(strongest_gravity(model_.scene)) * start.distance +
                                               start.wave * start.wave * strain * strain);
         raise_to(worst_, "energy", gained / (1e-4 * start.scale * std::max(steps_, 1.0) + rounding));
     }
@@ -202,7 +204,7 @@ double StabilityJudge::law(std::uint32_t substeps, bool driven) const {
         const ClothModel& cloth = model_.cloths[index];
         const double step = 1 / (model_.scene.time.fps * std::max(substeps, 1u));
         const double speed = driven ? length(cloth.velocity) + drive_ : 0;
-        const double acceleration = length(model_.scene.gravity) + speed * speed / cloth.reach() +
+        const double acceleration = length(strongest_gravity(model_.scene)) + speed * speed / cloth.reach() +
                                     wind_acceleration(model_.scene.wind, model_.scene.cloths[index]);
         held = std::max(held, starts_[index].held_strain);
         rounding =
@@ -223,10 +225,11 @@ double StabilityJudge::flight_error(std::size_t index, const ClothStatistics& st
     const ClothModel& cloth = model_.cloths[index];
     const double c = cloth.damping, decay = c > 0 ? -std::expm1(-c * time) / c : time;
     double error = 0, way = starts_[index].distance;
+    const Vec3 gravity = gravity_at(model_.scene, 0);
     for (std::size_t k = 0; k < 3; ++k) {
-        const double end = c > 0 ? model_.scene.gravity[k] / c : 0;
+        const double end = c > 0 ? gravity[k] / c : 0;
         const double flown = c > 0 ? end * time + (cloth.velocity[k] - end) * decay
-                                   : cloth.velocity[k] * time + 0.5 * model_.scene.gravity[k] * time * time;
+                                   : cloth.velocity[k] * time + 0.5 * gravity[k] * time * time;
         error = std::max(error, std::abs(statistics.center_of_mass[k] - starts_[index].mean[k] - flown));
         way = std::max(way, std::abs(flown));
     }

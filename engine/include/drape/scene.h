@@ -1,7 +1,8 @@
 // These are the plain values of a scene file: `scene_reader.h` fills them by the rows of `scene_format.cpp`, everything
-// else reads them. Units are SI and degrees, y is up; every default is the published one.
+// else reads them. Units are SI and degrees; every default is the published one, of a world with y up.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,18 @@ constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T val
     return {};
 }
 
+/// The axis that points up in a scene's world. Coordinates are the scene's own everywhere (scene/world.h). The reader
+/// turns defaults that have a direction with it; these structures have those of a world with y up.
+enum class Up { y, z };
+inline constexpr Spelling<Up> up_spellings[] = {{"y", Up::y}, {"z", Up::z}};
+
+/// One key of a vector that changes, of a wind's velocity or of gravity: scene/weather.h gives it between the keys.
+struct VectorKey {
+    double time = 0.0;  ///< s
+    Vec3 value{0, 0, 0};
+    bool operator==(const VectorKey&) const = default;
+};
+
 /// One key of a key-framed rigid motion. It turns about x, then y, then z; several turns are allowed, because paths
 /// interpolate the angles component by component.
 struct MotionKey {
@@ -66,12 +79,17 @@ struct Gust {
 };
 
 struct Wind {
-    Vec3 velocity{0, 0, 0};  ///< m/s
+    Vec3 velocity{0, 0, 0};  ///< m/s; of no effect beside keys
     Gust gust;
-    double air_density = 1.2;  ///< kg/m^3
-    double drag = 1.0;         ///< Cd
-    double lift = 0.5;         ///< Cl
-    bool blows() const { return velocity != Vec3{0, 0, 0}; }
+    double air_density = 1.2;     ///< kg/m^3
+    double drag = 1.0;            ///< Cd
+    double lift = 0.5;            ///< Cl
+    std::vector<VectorKey> keys;  ///< m/s, strictly increasing in time; empty: the velocity is steady
+    bool blows() const {
+        constexpr Vec3 none{0, 0, 0};
+        if (keys.empty()) return velocity != none;
+        return std::ranges::any_of(keys, [&](const VectorKey& key) { return key.value != none; });
+    }
     bool operator==(const Wind&) const = default;
 };
 
@@ -259,6 +277,7 @@ struct Camera {
     Vec3 position{0, 1.5, 3};
     Vec3 target{0, 1, 0};
     double fov = 40.0;  ///< vertical, degrees
+    Vec3 up{0, 1, 0};   ///< what points up in the picture; picture/framing.h sets it to the scene's
     bool operator==(const Camera&) const = default;
 };
 
@@ -292,7 +311,9 @@ struct Oracle {
 struct SceneDescription {
     std::string name;
     TimeSettings time;
-    Vec3 gravity{0, -9.81, 0};
+    Up up = Up::y;
+    Vec3 gravity{0, -9.81, 0};            ///< m/s^2; of no effect beside keys
+    std::vector<VectorKey> gravity_keys;  ///< m/s^2, strictly increasing in time; empty: gravity is constant
     Wind wind;
     std::vector<Cloth> cloths;
     std::vector<Collider> colliders;
