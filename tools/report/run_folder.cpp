@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "input/png_picture.h"
 #include "output/manifest.h"
 #include "output/png.h"
 
