@@ -32,6 +32,9 @@ std::string boxes(const std::vector<IndexBox>& boxes) {
     return text.empty() ? "none" : text;
 }
 
+/// Says whether a map is given; which one may differ.
+std::string factors(const std::vector<float>& factors) { return factors.empty() ? "absent" : "there"; }
+
 std::string pins(const std::vector<Pin>& pins) {
     std::vector<IndexBox> held;
     std::string moves;
@@ -49,6 +52,8 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
     for (const Difference& found :
          {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
           differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
+          differ(at + "/maps/stiffness", factors(first.cell_stiffness), factors(other.cell_stiffness)),
+          differ(at + "/maps/density", factors(first.cell_density), factors(other.cell_density)),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),

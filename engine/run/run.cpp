@@ -12,12 +12,21 @@ namespace drape {
 
 namespace {
 
+/// Returns the hash of what the cloth has from files, whatever they are called.
+std::string given_hash(const Cloth& cloth) {
+    return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) + xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density)));
+}
+
 LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     if (!result.scene) throw SceneFailure(std::move(result));
     LoadedScene loaded{std::move(*result.scene), result.text, {}, {}};
     for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
     std::vector<std::string> hashed{std::move(result.text)};
     hashed.insert(hashed.end(), request.overrides.begin(), request.overrides.end());
+    if (!result.files.empty())
+        for (const Cloth& cloth : loaded.description.cloths) hashed.push_back(given_hash(cloth));
     loaded.hash = run_key(hashed);
     if (request.image_size) loaded.description.image.size = *request.image_size;
     if (request.samples) loaded.description.image.samples = *request.samples;
@@ -32,7 +41,7 @@ LoadedScene load(const SceneRequest& request) {
 }
 
 LoadedScene load_text(const SceneRequest& request, std::string text) {
-    SceneResult result = read_scene_text(text, request.path, request.overrides);
+    SceneResult result = read_scene_text(text, request.path, request.overrides, scene_folder(request.path));
     result.text = std::move(text);
     return loaded_scene(request, std::move(result));
 }

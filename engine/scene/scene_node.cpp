@@ -212,6 +212,11 @@ bool SceneNode::read(std::string& field) const {
     return true;
 }
 
+std::filesystem::path SceneNode::file(const std::string& name) const {
+    report_->files.push_back(name);
+    return std::filesystem::path(report_->folder) / name;
+}
+
 bool SceneNode::fail_expected(std::string_view what) const {
     if (report_->errors.counts_only(offset_)) return false;
     return fail(fmt::format("expected {}, got {}", what, describe()));

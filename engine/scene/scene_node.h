@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cfloat>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,6 +58,8 @@ struct SceneReport {
     ErrorList errors;
     ErrorList warnings;
     std::vector<MissingKey>* missing = nullptr;  ///< null where they are not wanted
+    std::string folder = {};                     ///< files that the scene names are looked for here
+    std::vector<std::string> files = {};         ///< those that were named
 };
 
 /// The numbers that a field may have. The kernels work in single precision, so "finite" means finite there.
@@ -113,6 +116,9 @@ class SceneNode {
 
     template <class T>
     bool read_choice(T& field, std::span<const Spelling<T>> spellings) const;
+
+    /// Returns where the file is that the scene names here, and notes that it does.
+    std::filesystem::path file(const std::string& name) const;
 
     /// Reports "expected <what>, got <what is here>".
     bool fail_expected(std::string_view what) const;

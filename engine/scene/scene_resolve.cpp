@@ -14,12 +14,12 @@ namespace {
 /// with defaults of their own.
 class Resolution {
   public:
-    Resolution(std::string_view text, std::span<const std::string> overrides)
-        : text_(text), overrides_(overrides.begin(), overrides.end()) {}
+    Resolution(std::string_view text, std::span<const std::string> overrides, const std::string& folder)
+        : text_(text), overrides_(overrides.begin(), overrides.end()), folder_(folder) {}
 
     std::string run() {
         Reading reading = read();
-        if (!reading.errors.empty()) throw SceneFailure({{}, std::move(reading.errors), {}, {}, false});
+        if (!reading.errors.empty()) throw SceneFailure({{}, std::move(reading.errors), {}, {}, {}, false});
         const std::vector<SceneError> known = reading.warnings;
         while (add(reading.missing)) {
             reading = read();
@@ -49,7 +49,7 @@ class Resolution {
             for (const PlacedError& error : document.errors()) reading.errors.push_back(error.error);
             return reading;
         }
-        SceneReport report{document, {}, {}, &reading.missing};
+        SceneReport report{document, {}, {}, &reading.missing, folder_};
         SceneDescription scene;
         read_scene_object(SceneNode(report, document.root()), scene);
         reading.errors = report.errors.told();
@@ -91,14 +91,15 @@ class Resolution {
 
     std::string_view text_;
     std::vector<std::string> overrides_;
+    std::string folder_;
     std::vector<Default> defaults_;
     std::set<std::string> left_out_;
 };
 
 }  // namespace
 
-std::string resolved_scene(std::string_view text, std::span<const std::string> overrides) {
-    return Resolution(text, overrides).run();
+std::string resolved_scene(std::string_view text, std::span<const std::string> overrides, const std::string& folder) {
+    return Resolution(text, overrides, folder).run();
 }
 
 }  // namespace drape

@@ -63,6 +63,7 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"placement", ".cloths[0].placement"},
                                                      {"self_collision", ".cloths[0].self_collision"},
                                                      {"stiffness", ".cloths[0].stiffness"},
+                                                     {"maps", ".cloths[3].maps"},
                                                      {"pin", ".cloths[0].pins[2]"},
                                                      {"motion_key", ".cloths[0].pins[2].path[1]"},
                                                      {"appearance", ".cloths[0].appearance"},
@@ -230,7 +231,8 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
 TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
     const std::map<std::string_view, std::set<std::string>> without{
         {"scene", {"$schema", "cloths", "camera"}},
-        {"cloth", {"name", "fabric"}},
+        {"cloth", {"name", "fabric", "start", "maps"}},
+        {"maps", {"holes", "stiffness", "density"}},
         {"self_collision", {"thickness", "friction"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
         {"motion_key", {"t"}},

@@ -41,7 +41,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
 
 TEST(SceneValues, ClothOfTheFullScene) {
     const SceneDescription scene = scene_of(testing::full_scene);
-    ASSERT_EQ(scene.cloths.size(), 2u);
+    ASSERT_EQ(scene.cloths.size(), 4u);
     const Cloth& cloth = scene.cloths[0];
     EXPECT_EQ(cloth.name, "banner");
     EXPECT_EQ(cloth.grid, (std::array<std::uint32_t, 2>{96, 64}));
@@ -60,6 +60,23 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
+}
+
+TEST(SceneValues, FilesOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    const Cloth& given = scene.cloths[2];
+    ASSERT_EQ(given.start.size(), 15u);
+    EXPECT_EQ(given.start[0], (Vec3{9, 9, 0}));
+    EXPECT_EQ(given.start[8], (Vec3{10, 8.5, 0.125}));
+    EXPECT_EQ(given.placement, Placement{});
+    // The picture's cells are 0, 1, 1, 1 over 1, 0.4, 1, 0.
+    const Cloth& mapped = scene.cloths[3];
+    EXPECT_EQ(mapped.holes, (std::vector<IndexBox>{{{0, 0}, {1, 1}}, {{1, 1}, {2, 2}}, {{3, 1}, {4, 2}}}));
+    EXPECT_EQ(mapped.stiffness.stretch, 2 * Stiffness{}.stretch) << "the stiffest cell's";
+    EXPECT_EQ(mapped.stiffness.bend, 2 * Stiffness{}.bend);
+    EXPECT_EQ(mapped.cell_stiffness, (std::vector<float>{0.25f, 1, 1, 1, 1, 0.55f, 1, 0.25f}));
+    EXPECT_EQ(mapped.areal_density, 0.5 * Cloth{}.areal_density) << "the lightest cell's";
+    EXPECT_EQ(mapped.cell_density, (std::vector<float>{6, 1, 1, 1, 1, 4, 1, 6}));
 }
 
 TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {
