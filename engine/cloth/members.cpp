@@ -32,8 +32,12 @@ std::string boxes(const std::vector<IndexBox>& boxes) {
     return text.empty() ? "none" : text;
 }
 
-/// Says whether a map is given; which one may differ.
-std::string factors(const std::vector<float>& factors) { return factors.empty() ? "absent" : "there"; }
+Difference map_difference(const std::string& pointer, const std::vector<float>& first,
+                          const std::vector<float>& other) {
+    if (first.empty() || other.empty())
+        return differ(pointer, first.empty() ? "absent" : "there", other.empty() ? "absent" : "there");
+    return first == other ? std::nullopt : Difference(pointer + " has other values");
+}
 
 std::string pins(const std::vector<Pin>& pins) {
     std::vector<IndexBox> held;
@@ -52,8 +56,8 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
     for (const Difference& found :
          {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
           differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
-          differ(at + "/maps/stiffness", factors(first.cell_stiffness), factors(other.cell_stiffness)),
-          differ(at + "/maps/density", factors(first.cell_density), factors(other.cell_density)),
+          map_difference(at + "/maps/stiffness", first.cell_stiffness, other.cell_stiffness),
+          map_difference(at + "/maps/density", first.cell_density, other.cell_density),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),

@@ -131,7 +131,7 @@ Array load_npy(const std::filesystem::path& path, const WantedValues& wanted) {
 using Archive = std::unique_ptr<zip_t, void (*)(zip_t*)>;
 
 Archive open_archive(const std::filesystem::path& path) {
-    FileSource{path};  // libzip would wait for a pipe
+    const FileSource regular(path);  // libzip would wait for a pipe
     int code = 0;
     Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code), zip_discard);
     if (archive) return archive;
