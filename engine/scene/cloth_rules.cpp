@@ -180,7 +180,7 @@ std::string crossing_fate(const SceneDescription& scene, const StartCrossing& cr
 /// Returns what says where a cloth starts.
 SceneNode start_node(const SceneNode& cloth) {
     for (const char* key : {"placement", "start"})
-        if (const SceneNode node = cloth.member(key)) return node;
+        if (SceneNode node = cloth.member(key)) return node;
     return cloth;
 }
 
