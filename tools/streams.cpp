@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <string>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
-#include "output/output_error.h"
 
 namespace drape::cli {
 

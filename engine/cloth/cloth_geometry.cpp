@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/vectors.h"
 #include "cloth/texels.h"
 #include "scene/start.h"
 #include "scene/weather.h"
@@ -10,9 +11,10 @@ namespace drape {
 
 ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks)
     : name(cloth.name),
-      grid(cloth.grid[0], cloth.grid[1], cloth.holes),
+      grid(cloth),
       starts_masked(!grid.whole() || keeps_masks),
       placement(cloth.placement),
+      is_given(!cloth.start.empty()),
       start_strain(drape::start_strain(cloth)),
       spacing{cloth.size[0] / (grid.columns() - 1), cloth.size[1] / (grid.rows() - 1)},
       inner_mass(cloth.areal_density * spacing[0] * spacing[1]),
@@ -32,6 +34,18 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (scene.solver.tethers) set_tethers(scene, cloth);
 }
 
+Vec3 ClothGeometry::start_direction(std::uint32_t particle, std::size_t axis) const {
+    const Vec3& placed = axis == 0 ? placement.u : placement.v;
+    if (!is_given) return placed;
+    const std::uint32_t place = axis == 0 ? particle % grid.columns() : particle / grid.columns();
+    const std::uint32_t step = axis == 0 ? 1 : grid.columns();
+    const std::uint32_t first = place > 0 ? particle - step : particle, last = first + step;
+    const glsl::vec4 &from = position[first], &to = position[last];
+    const Vec3 way{double(to.x) - from.x, double(to.y) - from.y, double(to.z) - from.z};
+    const double size = length(way);
+    return size > 0 ? times(1 / size, way) : placed;
+}
+
 float ClothGeometry::reach() const {
     return static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
 }
@@ -44,7 +58,7 @@ void ClothGeometry::place(const Cloth& cloth) {
             position.push_back(texel(start[grid.particle(column, row)], free_weight.back()));
         }
     if (!starts_masked)
-        skipped.push_back({name + "/spring shares", "no holes or cuts: the grid's extent gives every stiffness"});
+        skipped.push_back({name + "/spring shares", "no holes, maps or cuts: the grid's extent gives every stiffness"});
 }
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {

@@ -35,8 +35,9 @@ struct ClothGeometry {
 
     std::string name;
     Grid grid;
-    bool starts_masked;  ///< holes: spring shares and cells are images from the start
+    bool starts_masked;  ///< holes or maps: spring shares and cells are images from the start
     Placement placement;
+    bool is_given;                          ///< the start is a given shape, not the placed one
     double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column
     double spacing[2];                      ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
@@ -58,6 +59,8 @@ struct ClothGeometry {
     bool shows_crumbs;  ///< small pieces that are cut off are drawn
     std::vector<SkippedWork> skipped;
 
+    /// Returns the unit direction of growing column (axis 0) or row at a particle as it starts.
+    Vec3 start_direction(std::uint32_t particle, std::size_t axis) const;
     /// Returns the flat cloth's diagonal, m.
     float reach() const;
 

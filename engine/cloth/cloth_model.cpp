@@ -9,7 +9,7 @@
 namespace drape {
 
 double largest_coordinate(const Cloth& cloth) {
-    const Vec3& o = cloth.placement.origin;
+    const Vec3& o = cloth.start.empty() ? cloth.placement.origin : cloth.start.front();
     return std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
 }
 

@@ -221,10 +221,9 @@ std::uint32_t CutTopology::add_vertex(std::uint32_t anchor, std::array<double, 2
         vertex.weights.y = static_cast<float>(rest_v / (below ? cloth_->spacing[1] : -cloth_->spacing[1]));
         rest_v = 0;
     }
-    // Directions that no own neighbour spans stay those of the rest pose (the piece may be a single particle).
-    const auto component = [&](std::size_t k) {
-        return static_cast<float>(rest_u * cloth_->placement.u[k] + rest_v * cloth_->placement.v[k]);
-    };
+    // Directions that no own neighbour spans stay those of the start (the piece may be a single particle).
+    const Vec3 u = cloth_->start_direction(anchor, 0), v = cloth_->start_direction(anchor, 1);
+    const auto component = [&](std::size_t k) { return static_cast<float>(rest_u * u[k] + rest_v * v[k]); };
     vertex.offset = {component(0), component(1), component(2), 0};
     vertices_.push_back(vertex);
     return static_cast<std::uint32_t>(grid_.particle_count() + vertices_.size() - 1);

@@ -16,6 +16,12 @@ Grid::Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> 
             }
 }
 
+Grid::Grid(const Cloth& cloth) : Grid(cloth.grid[0], cloth.grid[1], cloth.holes) {
+    stiffness_ = cloth.cell_stiffness;
+    density_ = cloth.cell_density;
+    whole_ = whole_ && stiffness_.empty() && density_.empty();
+}
+
 std::uint32_t Grid::cell(int column, int row) const {
     if (column < 0 || row < 0 || column >= size().x - 1 || row >= size().y - 1) return 0;
     return cells_[static_cast<std::size_t>(row) * (columns_ - 1) + static_cast<std::size_t>(column)];
@@ -26,20 +32,34 @@ void Grid::remove_triangle(std::size_t cell, std::uint32_t which) {
     whole_ = false;
 }
 
-float Grid::relative_inverse_mass(std::uint32_t column, std::uint32_t row) const {
+double Grid::cell_masses(std::uint32_t column, std::uint32_t row) const {
     const int i = static_cast<int>(column), j = static_cast<int>(row);
-    int count = 0;
-    for (int dj = -1; dj <= 0; ++dj)
-        for (int di = -1; di <= 0; ++di) count += cell(i + di, j + dj) != 0;
-    return count == 0 ? 0.0f : 4.0f / static_cast<float>(count);
+    double sum = 0;
+    for (const int y : {j - 1, j})
+        for (const int x : {i - 1, i}) sum += cell_density(x, y);
+    return sum;
+}
+
+float Grid::cell_density(int column, int row) const {
+    if (cell(column, row) == 0) return 0;
+    return density_.empty() ? 1.0f : density_[static_cast<std::size_t>(row) * (columns_ - 1) + column];
+}
+
+float Grid::relative_inverse_mass(std::uint32_t column, std::uint32_t row) const {
+    const auto sum = static_cast<float>(cell_masses(column, row));
+    return sum > 0 ? 4.0f / sum : 0.0f;
+}
+
+float Grid::cell_stiffness(int column, int row) const {
+    if (cell(column, row) == 0) return 0;
+    return stiffness_.empty() ? 1.0f : stiffness_[static_cast<std::size_t>(row) * (columns_ - 1) + column];
 }
 
 float Grid::spring_share(int column, int row, std::size_t direction) const {
     const glsl::ivec2 offset = spring_directions[direction].offset;
-    const auto present = [this](int i, int j) { return cell(i, j) != 0 ? 1.0f : 0.0f; };
-    if (offset.y == 0) return 0.5f * (present(column, row - 1) + present(column, row));
-    if (offset.x == 0) return 0.5f * (present(column - 1, row) + present(column, row));
-    return present(offset.x < 0 ? column - 1 : column, row);
+    if (offset.y == 0) return 0.5f * (cell_stiffness(column, row - 1) + cell_stiffness(column, row));
+    if (offset.x == 0) return 0.5f * (cell_stiffness(column - 1, row) + cell_stiffness(column, row));
+    return cell_stiffness(offset.x < 0 ? column - 1 : column, row);
 }
 
 glsl::vec4 Grid::spring_shares(std::uint32_t column, std::uint32_t row) const {

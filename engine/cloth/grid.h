@@ -19,6 +19,8 @@ class Grid {
   public:
     /// `holes` are boxes of particle indices whose inner cells are missing.
     Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> holes = {});
+    /// Makes a cloth's grid, with its holes and the factors of its cells.
+    explicit Grid(const Cloth& cloth);
 
     std::uint32_t columns() const { return columns_; }
     std::uint32_t rows() const { return rows_; }
@@ -32,13 +34,20 @@ class Grid {
     const std::vector<std::uint32_t>& cells() const { return cells_; }
     /// Removes a triangle that was cut: wind, normals and rest pieces do without it; masses and springs stay.
     void remove_triangle(std::size_t cell, std::uint32_t which);
-    /// Returns whether every cell is whole: then no mask is needed anywhere.
+    /// Returns whether every cell is whole and like the others: then no mask is needed anywhere.
     bool whole() const { return whole_; }
 
-    /// Returns the inverse mass relative to an inner particle: 4 / (cells around it); 1 inside, 2 on a border, 4 at a
+    /// Returns the factor of a cell's mass; 0: the cell is missing.
+    float cell_density(int column, int row) const;
+    /// Returns the mass of the cells around a particle, each with its factor, in units of a quarter of a cell's.
+    double cell_masses(std::uint32_t column, std::uint32_t row) const;
+    /// Returns the inverse mass relative to an inner particle: 4 / cell_masses; 1 inside, 2 on a border, 4 at a
     /// corner, 0 for a particle without any cell.
     float relative_inverse_mass(std::uint32_t column, std::uint32_t row) const;
-    /// Returns the share of a spring's stiffness (0, 0.5 or 1) per direction of the table, owned by its first particle.
+    /// Returns the factor of a cell's stiffness; 0: the cell is missing.
+    float cell_stiffness(int column, int row) const;
+    /// Returns the share of a spring's stiffness per direction of the table, owned by its first particle: 0, 0.5 or 1,
+    /// or what the factors of the cells beside it make of that.
     glsl::vec4 spring_shares(std::uint32_t column, std::uint32_t row) const;
 
     /// Returns three particle indices per existing triangle, cell by cell, upper before lower.
@@ -48,6 +57,7 @@ class Grid {
     float spring_share(int column, int row, std::size_t direction) const;
     std::uint32_t columns_, rows_;
     std::vector<std::uint32_t> cells_;
+    std::vector<float> stiffness_, density_;  ///< factors by cell; empty: 1
     bool whole_ = true;
 };
 

@@ -34,6 +34,13 @@ std::string boxes(const std::vector<IndexBox>& boxes) {
     return text.empty() ? "none" : text;
 }
 
+Difference map_difference(const std::string& pointer, const std::vector<float>& first,
+                          const std::vector<float>& other) {
+    if (first.empty() || other.empty())
+        return differ(pointer, first.empty() ? "absent" : "there", other.empty() ? "absent" : "there");
+    return first == other ? std::nullopt : Difference(pointer + " has other values");
+}
+
 std::string pins(const std::vector<Pin>& pins) {
     std::vector<IndexBox> held;
     std::string moves;
@@ -51,6 +58,8 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
     for (const Difference& found :
          {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
           differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
+          map_difference(at + "/maps/stiffness", first.cell_stiffness, other.cell_stiffness),
+          map_difference(at + "/maps/density", first.cell_density, other.cell_density),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),

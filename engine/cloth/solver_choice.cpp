@@ -49,6 +49,9 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
     }
     small.pins.clear();
     small.holes.clear();
+    small.start.clear();
+    small.cell_stiffness.clear();
+    small.cell_density.clear();
     const MethodSettings settings{substeps,
                                   1,
                                   1 / (scene.time.fps * substeps),

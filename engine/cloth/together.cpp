@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint64_t most_particles = 128 * 128;
 
 bool have_same_shape(const Cloth& one, const Cloth& other) {
-    return one.grid == other.grid && one.holes == other.holes &&
-           one.self_collision.has_value() == other.self_collision.has_value();
+    return one.grid == other.grid && one.holes == other.holes && one.cell_stiffness == other.cell_stiffness &&
+           one.cell_density == other.cell_density && one.self_collision.has_value() == other.self_collision.has_value();
 }
 
 float sign(float number) { return number > 0 ? 1.0f : 0.0f; }
@@ -224,6 +224,7 @@ bool have_same_numbers(const Cloth& one, const Cloth& other) {
     Cloth same = other;
     same.name = one.name;
     same.placement = one.placement;
+    same.start = one.start;
     same.velocity = one.velocity;
     same.pins = one.pins;
     same.appearance = one.appearance;

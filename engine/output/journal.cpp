@@ -9,7 +9,7 @@
 #include <cerrno>
 
 #include "base/byte_stream.h"
-#include "output/output_error.h"
+#include "base/output_error.h"
 
 namespace drape {
 

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
-#include "output/output_error.h"
 
 namespace drape {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "input/png_picture.h"
 #include "output/json_file.h"
 #include "output/json_text.h"
-#include "output/png.h"
 #include "output/png_sequence.h"
 
 namespace drape {

@@ -101,10 +101,6 @@ void ignore_file_size_signal() {
 
 }  // namespace
 
-OutputError system_error_at(const std::string& action, const std::string& path, int errno_value) {
-    return OutputError(fmt::format("cannot {} '{}': {}", action, path, std::generic_category().message(errno_value)));
-}
-
 bool is_plain_file_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
            name.find('\0') == std::string_view::npos;

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
 #include "output/file_descriptor.h"
-#include "output/output_error.h"
 
 namespace drape {
 

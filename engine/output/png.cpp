@@ -8,27 +8,13 @@
 #include <new>
 #include <stdexcept>
 
-#include "output/atomic_file.h"
-#include "output/available_memory.h"
+#include "input/png_context.h"
 
 namespace drape {
 
+using namespace png;
+
 namespace {
-
-constexpr std::uint32_t side_limit = 16384;
-
-using Context = std::unique_ptr<spng_ctx, void (*)(spng_ctx*)>;
-
-Context new_context(int flags) {
-    Context context(spng_ctx_new(flags), spng_ctx_free);
-    if (!context) throw std::bad_alloc();
-    return context;
-}
-
-void check(int result, const char* action) {
-    if (result == SPNG_EMEM) throw std::bad_alloc();
-    if (result != 0) throw OutputError(fmt::format("PNG: cannot {}: {}", action, spng_strerror(result)));
-}
 
 int append_bytes(spng_ctx*, void* user, void* source, size_t length) noexcept {
     auto& png = *static_cast<std::vector<std::uint8_t>*>(user);
@@ -41,8 +27,6 @@ int append_bytes(spng_ctx*, void* user, void* source, size_t length) noexcept {
     return 0;
 }
 
-constexpr const char* text_keyword = "drape";
-
 // The encoder keeps the pointer: `text` must live until the picture is encoded.
 void set_text(spng_ctx* context, std::string& text) {
     if (text.empty()) return;
@@ -52,29 +36,6 @@ void set_text(spng_ctx* context, std::string& text) {
     chunk.length = text.size();
     chunk.text = text.data();
     check(spng_set_text(context, &chunk, 1), "set the text chunk");
-}
-
-std::string read_text_chunk(spng_ctx* context) {
-    std::uint32_t count = 0;
-    const int result = spng_get_text(context, nullptr, &count);
-    if (result == SPNG_ECHUNKAVAIL) return {};
-    check(result, "count the text chunks");
-    std::vector<spng_text> chunks(count);
-    check(spng_get_text(context, chunks.data(), &count), "read the text chunks");
-    for (const spng_text& chunk : chunks)
-        if (std::strcmp(chunk.keyword, text_keyword) == 0) return {chunk.text, chunk.length};
-    return {};
-}
-
-// Before memory is taken for what the header says.
-void check_size(const spng_ihdr& header, std::size_t file_bytes) {
-    constexpr std::uint64_t channels[] = {1, 0, 3, 1, 2, 0, 4};  // by colour type
-    constexpr std::uint64_t most_shrunk = 1032;                  // of deflate: 258 bytes in two bits
-    const std::uint64_t row_bits = channels[header.color_type] * header.bit_depth * header.width;
-    const std::string what = fmt::format("PNG: a picture of {}x{} pixels", header.width, header.height);
-    if (row_bits / 8 * header.height / most_shrunk > file_bytes)
-        throw OutputError(fmt::format("{} is not in {} bytes", what, file_bytes));
-    expect_memory(what, std::uint64_t{header.width} * header.height * 3);
 }
 
 void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, const std::uint8_t* rgba) {
@@ -122,30 +83,6 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE),
           "begin");
     encode_rows(context.get(), width, height, rgba.data());
-}
-
-Picture decode_png(std::span<const std::uint8_t> png) {
-    const Context context = new_context(0);
-    check(spng_set_image_limits(context.get(), side_limit, side_limit), "set limits");
-    check(spng_set_chunk_limits(context.get(), 1 << 20, 1 << 22), "set limits");
-    check(spng_set_png_buffer(context.get(), png.data(), png.size()), "read");
-    spng_ihdr header{};
-    check(spng_get_ihdr(context.get(), &header), "read the header");
-    check_size(header, png.size());
-    Picture picture{header.width, header.height, {}, {}};
-    picture.rgb.resize(size_t{header.width} * header.height * 3);
-    check(spng_decode_image(context.get(), picture.rgb.data(), picture.rgb.size(), SPNG_FMT_RGB8, 0), "decode");
-    picture.text = read_text_chunk(context.get());
-    return picture;
-}
-
-Picture read_png(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file);
-    try {
-        return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-    } catch (const OutputError& error) {
-        throw OutputError(fmt::format("cannot read '{}': {}", file.string(), error.what()));
-    }
 }
 
 }  // namespace drape

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "base/byte_stream.h"
+#include "base/output_error.h"
 #include "output/atomic_file.h"
-#include "output/output_error.h"
 
 namespace drape {
 

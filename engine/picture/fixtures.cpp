@@ -60,7 +60,23 @@ class Fitter {
         const std::size_t across = wide >= high ? 1 : 0;
         const bool at_end = box.last[across] + 1 == cloth_.grid[across] && box.first[across] > 0;
         from[across] = to[across] = at_end ? box.last[across] : box.first[across];
+        if (is_bent(from, to)) return;
         fit_bar(start_place(cloth_, from[0], from[1]), start_place(cloth_, to[0], to[1]), pin);
+    }
+
+    /// Returns whether a given shape leads a row of particles along no straight line.
+    bool is_bent(const std::array<std::uint32_t, 2>& from, const std::array<std::uint32_t, 2>& to) const {
+        if (cloth_.start.empty()) return false;
+        const Vec3 begin = start_place(cloth_, from[0], from[1]), end = start_place(cloth_, to[0], to[1]);
+        const Vec3 along = sum(end, begin, -1);
+        const double squared = dot(along, along);
+        for (std::uint32_t row = from[1]; row <= to[1]; ++row)
+            for (std::uint32_t column = from[0]; column <= to[0]; ++column) {
+                const Vec3 away = sum(start_place(cloth_, column, row), begin, -1);
+                const double share = squared > 0 ? dot(away, along) / squared : 0;
+                if (length(sum(away, along, -share)) > 0.01 * size_) return true;
+            }
+        return false;
     }
 
     void fit_bar(Vec3 from, Vec3 to, const Pin& pin) {

@@ -19,6 +19,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// A particle and where it starts, m.
+struct ClothPoint {
+    Vec3 at;
+    std::uint32_t column, row;
+};
+
 struct Bounds {
     Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     bool empty() const { return !(low[0] <= high[0]); }
@@ -34,10 +40,15 @@ struct Bounds {
     }
 };
 
-std::array<Vec3, 4> corners(const Cloth& cloth) {
-    std::array<Vec3, 4> result;
-    for (std::uint32_t i = 0; i < 4; ++i)
-        result[i] = start_place(cloth, i % 2 * (cloth.grid[0] - 1), i / 2 * (cloth.grid[1] - 1));
+/// Returns the cloth's corners, of a given shape more of its particles.
+std::vector<ClothPoint> outline(const Cloth& cloth) {
+    const std::uint32_t parts = cloth.start.empty() ? 1 : 16;
+    std::vector<ClothPoint> result;
+    for (std::uint32_t j = 0; j <= parts; ++j)
+        for (std::uint32_t i = 0; i <= parts; ++i) {
+            const std::uint32_t column = i * (cloth.grid[0] - 1) / parts, row = j * (cloth.grid[1] - 1) / parts;
+            result.push_back({start_place(cloth, column, row), column, row});
+        }
     return result;
 }
 
@@ -47,7 +58,7 @@ Vec3 landed(const Vec3& point, const Plane& plane) {
 
 void add_cloth(const Cloth& cloth, const std::vector<Collider>& colliders, Bounds& bounds) {
     const double swing = 0.25 * 0.5 * std::hypot(cloth.size[0], cloth.size[1]);
-    for (const Vec3& point : corners(cloth)) {
+    for (const auto& [point, column, row] : outline(cloth)) {
         bounds.add(point, swing);
         for (const Pin& pin : cloth.pins) bounds.add(point, 0, pin.path);
         for (const Collider& collider : colliders)
@@ -60,16 +71,24 @@ Vec3 unit(const Vec3& v) {
     return size > 0 ? Vec3{v[0] / size, v[1] / size, v[2] / size} : Vec3{0, 0, 0};
 }
 
+/// Returns how far two particles are from each other on the cloth: as placed, or with a given shape spread out.
+double apart(const Cloth& cloth, const ClothPoint& a, const ClothPoint& b) {
+    if (cloth.start.empty()) return length(sum(a.at, b.at, -1));
+    const double across = cloth.size[0] * (double(a.column) - b.column) / (cloth.grid[0] - 1);
+    return std::hypot(across, cloth.size[1] * (double(a.row) - b.row) / (cloth.grid[1] - 1));
+}
+
 /// Returns where `point` of a cloth comes to hang straight below the nearest of its pins.
-std::optional<Vec3> hanging(const Cloth& cloth, const Vec3& point, const Vec3& down) {
+std::optional<Vec3> hanging(const Cloth& cloth, const ClothPoint& point, const Vec3& down) {
     std::optional<Vec3> place;
     double nearest = infinity;
     for (const Pin& pin : cloth.pins)
         for (const bool last_column : {false, true})
             for (const bool last_row : {false, true}) {
-                const Vec3 held = start_place(cloth, (last_column ? pin.particles.last : pin.particles.first)[0],
-                                              (last_row ? pin.particles.last : pin.particles.first)[1]);
-                const double distance = length(sum(point, held, -1));
+                const std::uint32_t column = (last_column ? pin.particles.last : pin.particles.first)[0];
+                const std::uint32_t row = (last_row ? pin.particles.last : pin.particles.first)[1];
+                const Vec3 held = start_place(cloth, column, row);
+                const double distance = apart(cloth, point, {held, column, row});
                 if (pin.release || distance >= nearest) continue;
                 nearest = distance;
                 place = sum(held, down, distance);
@@ -89,11 +108,12 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
     const bool lands_on_bodies = std::ranges::any_of(
         scene.colliders, [](const Collider& collider) { return !std::holds_alternative<Plane>(collider.shape); });
     for (const Cloth& cloth : scene.cloths) {
-        for (const Vec3& corner : corners(cloth)) {
+        for (const ClothPoint& each : outline(cloth)) {
+            const Vec3& corner = each.at;
             points.push_back(corner);
             for (const Pin& pin : cloth.pins)
                 for (const MotionKey& key : pin.path.keys) points.push_back(sum(corner, key.translate));
-            const std::optional<Vec3> hung = hanging(cloth, corner, down);
+            const std::optional<Vec3> hung = hanging(cloth, each, down);
             const std::optional<double> floor = floor_below(scene.colliders, corner[up], up);
             // Wind keeps a flag up; cloth that nothing holds comes down, and draws together on bodies that it meets.
             if (hung && !scene.wind.blows())

@@ -46,7 +46,7 @@ SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_in
       wind(scene.wind) {
     const Cloth& cloth = scene.cloths[cloth_index];
     check_supported(scene, cloth, options);
-    const Grid grid(cloth.grid[0], cloth.grid[1], cloth.holes);
+    const Grid grid(cloth);
     place(cloth, grid);
     hold_pins(cloth, grid);
     add_springs(cloth, grid);
@@ -60,10 +60,7 @@ void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
     const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
-            const int i = static_cast<int>(column), j = static_cast<int>(row);
-            const int cells = (grid.cell(i - 1, j - 1) != 0) + (grid.cell(i, j - 1) != 0) + (grid.cell(i - 1, j) != 0) +
-                              (grid.cell(i, j) != 0);
-            mass.push_back(0.25 * cells * cloth.areal_density * dx * dy);
+            mass.push_back(0.25 * grid.cell_masses(column, row) * cloth.areal_density * dx * dy);
             rest_position.push_back(start_place(cloth, column, row));
         }
     pin_of.assign(mass.size(), -1);
@@ -117,8 +114,13 @@ void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
     if (rigidity == 0) return;
     const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
     const auto present = [&grid](int i, int j) { return grid.cell(i, j) != 0; };
-    const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, double share, double h, double across) {
-        if (share > 0) bending.push_back({{p, q, r, q}, {1, -2, 1, 0}, share * rigidity * across / (h * h * h)});
+    // Where cells differ, three particles bend as the softer of their two springs pulls.
+    const bool mapped = !cloth.cell_stiffness.empty();
+    const auto share = [&grid](std::uint32_t at) {
+        return grid.spring_shares(at % grid.columns(), at / grid.columns());
+    };
+    const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, double part, double h, double across) {
+        if (part > 0) bending.push_back({{p, q, r, q}, {1, -2, 1, 0}, part * rigidity * across / (h * h * h)});
     };
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
@@ -126,11 +128,19 @@ void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
             const std::uint32_t p = grid.particle(column, row), down = grid.columns();
             const bool cells[4] = {present(i - 1, j - 1), present(i, j - 1), present(i - 1, j), present(i, j)};
             if (column > 0 && column + 1 < grid.columns())
-                add(p - 1, p, p + 1, bending_share(cells[0], cells[1], cells[2], cells[3]), dx, dy);
+                add(p - 1, p, p + 1,
+                    mapped ? std::min(share(p - 1).x, share(p).x)
+                           : bending_share(cells[0], cells[1], cells[2], cells[3]),
+                    dx, dy);
             if (row > 0 && row + 1 < grid.rows())
-                add(p - down, p, p + down, bending_share(cells[0], cells[2], cells[1], cells[3]), dy, dx);
+                add(p - down, p, p + down,
+                    mapped ? std::min(share(p - down).y, share(p).y)
+                           : bending_share(cells[0], cells[2], cells[1], cells[3]),
+                    dy, dx);
             if (cells[3])
-                bending.push_back({{p, p + 1, p + down, p + down + 1}, {1, -1, -1, 1}, 2 * rigidity / (dx * dy)});
+                bending.push_back({{p, p + 1, p + down, p + down + 1},
+                                   {1, -1, -1, 1},
+                                   2 * rigidity * grid.cell_stiffness(i, j) / (dx * dy)});
         }
 }
 

@@ -4,8 +4,8 @@
 
 #include <new>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
-#include "output/output_error.h"
 #include "run/run.h"
 #include "vulkan/instance.h"
 

@@ -13,12 +13,29 @@ namespace drape {
 
 namespace {
 
+/// Returns the hash of what the cloth has from files, whatever they are called.
+std::string given_hash(const Cloth& cloth) {
+    return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) + xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density)));
+}
+
+std::string given_hash(const MeshShape& mesh) {
+    return xxh3_128_hex(std::as_bytes(std::span(mesh.vertices()))) +
+           xxh3_128_hex(std::as_bytes(std::span(mesh.triangles())));
+}
+
 LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     if (!result.scene) throw SceneFailure(std::move(result));
     LoadedScene loaded{std::move(*result.scene), result.text, {}, {}};
     for (const SceneError& warning : result.warnings) loaded.warnings.push_back(warning.text());
     std::vector<std::string> hashed{std::move(result.text)};
     hashed.insert(hashed.end(), request.overrides.begin(), request.overrides.end());
+    if (!result.files.empty()) {
+        for (const Cloth& cloth : loaded.description.cloths) hashed.push_back(given_hash(cloth));
+        for (const Collider& collider : loaded.description.colliders)
+            if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) hashed.push_back(given_hash(*mesh->shape));
+    }
     loaded.hash = run_key(hashed);
     if (request.image_size) loaded.description.image.size = *request.image_size;
     if (request.samples) loaded.description.image.samples = *request.samples;
@@ -33,7 +50,7 @@ LoadedScene load(const SceneRequest& request) {
 }
 
 LoadedScene load_text(const SceneRequest& request, std::string text) {
-    SceneResult result = read_scene_text(text, request.path, request.overrides);
+    SceneResult result = read_scene_text(text, request.path, request.overrides, scene_folder(request.path));
     result.text = std::move(text);
     return loaded_scene(request, std::move(result));
 }
@@ -42,11 +59,6 @@ std::string key_of(const RunRequest& request, const LoadedScene& scene, const De
     std::vector<std::string> parts{program_version(), scene.hash, device.uuid_text(), device.driver,
                                    device.driver_version};
     for (const SpirvModule& module : spirv_modules()) parts.push_back(xxh3_128_hex(std::as_bytes(module.words)));
-    for (const Collider& collider : scene.description.colliders)
-        if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
-            parts.push_back(xxh3_128_hex(std::as_bytes(std::span(mesh->shape->vertices()))));
-            parts.push_back(xxh3_128_hex(std::as_bytes(std::span(mesh->shape->triangles()))));
-        }
     const ImageSettings& image = scene.description.image;
     parts.push_back(request.draws() ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
                                     : "arrays");

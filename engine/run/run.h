@@ -101,7 +101,7 @@ const char* program_version();
 struct LoadedScene {
     SceneDescription description;
     std::string text;  ///< text of the file
-    std::string hash;  ///< hash of the text and the overrides, which decide the result besides program and device
+    std::string hash;  ///< hash of the text, the overrides and what they take from files: they decide the result
     std::vector<std::string> warnings;
 };
 

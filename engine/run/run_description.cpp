@@ -21,7 +21,7 @@ std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded
     const ImageSettings& image = loaded.description.image;
     if (request.image_size) overrides.push_back(fmt::format("/image/size=[{},{}]", image.size[0], image.size[1]));
     if (request.samples) overrides.push_back(fmt::format("/image/samples={}", image.samples));
-    std::istringstream text(resolved_scene(loaded.text, overrides, request.path));
+    std::istringstream text(resolved_scene(loaded.text, overrides, scene_folder(request.path)));
     Json::Value value;
     text >> value;
     return json_line(value);

@@ -19,17 +19,6 @@ namespace {
 using Particle = std::array<std::uint32_t, 2>;
 constexpr const char* name_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
 
-std::array<Vec3, 4> corners(const Cloth& cloth) {
-    std::array<Vec3, 4> points;
-    for (std::size_t corner = 0; corner < 4; ++corner)
-        for (std::size_t i = 0; i < 3; ++i)
-            points[corner][i] =
-                cloth.placement.origin[i] +
-                (corner % 2 == 1 ? cloth.placement.u[i] * cloth.placement.scale[0] * cloth.size[0] : 0.0) +
-                (corner / 2 == 1 ? cloth.placement.v[i] * cloth.placement.scale[1] * cloth.size[1] : 0.0);
-    return points;
-}
-
 bool read_particle(const SceneNode& node, const Particle& grid, Particle& particle) {
     if (!node.open_array("a particle [column, row]", 2, 2)) return false;
     const bool has_column = node.element(0).read(particle[0], 0, grid[0] - 1);
@@ -65,7 +54,8 @@ bool find_particles(const SceneNode& node, const Particle& grid, Pin& pin) {
 // Single precision must resolve a quarter of an edge where the cloth starts, or the springs see only rounding.
 bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
     double farthest = 0.0;
-    for (const Vec3& corner : corners(cloth))
+    const StartBox box = start_box(cloth);
+    for (const Vec3& corner : {box.low, box.high})
         for (const double x : corner) farthest = std::max(farthest, std::abs(x) + cloth.placement.jitter);
     const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     const auto single = static_cast<float>(farthest);
@@ -156,14 +146,9 @@ bool check_fall(const Members& members, const SceneDescription& scene) {
 }
 
 bool start_boxes_meet(const Cloth& a, const Cloth& b) {
-    const std::array<Vec3, 4> a_corners = corners(a);
-    const std::array<Vec3, 4> b_corners = corners(b);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto less = [i](const Vec3& p, const Vec3& q) { return p[i] < q[i]; };
-        const auto [a_low, a_high] = std::minmax_element(a_corners.begin(), a_corners.end(), less);
-        const auto [b_low, b_high] = std::minmax_element(b_corners.begin(), b_corners.end(), less);
-        if ((*a_high)[i] < (*b_low)[i] || (*b_high)[i] < (*a_low)[i]) return false;
-    }
+    const StartBox one = start_box(a), other = start_box(b);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (one.high[i] < other.low[i] || other.high[i] < one.low[i]) return false;
     return true;
 }
 
@@ -183,7 +168,10 @@ void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
 /// Says what becomes of the crossing, and what would help.
 std::string crossing_fate(const SceneDescription& scene, const StartCrossing& crossing) {
     if (crossing.untied > 0) return "";
-    if (crossing.first == crossing.second) return ": no frame is proved; less jitter would help";
+    if (crossing.first == crossing.second)
+        return fmt::format(": no frame is proved; {} would help", scene.cloths[crossing.first].start.empty()
+                                                                      ? "less jitter"
+                                                                      : "a shape that does not cross itself");
     const std::string elsewhere = "; place one of them elsewhere";
     if (is_led_apart(scene, crossing))
         return fmt::format(": they are led apart at {} m/s and meet from then on{}", parting_speed, elsewhere);
@@ -192,12 +180,18 @@ std::string crossing_fate(const SceneDescription& scene, const StartCrossing& cr
     return ": the two will not meet, and no frame is proved" + elsewhere;
 }
 
+/// Returns what says where a cloth starts.
+SceneNode start_node(const SceneNode& cloth) {
+    for (const char* key : {"placement", "start"})
+        if (SceneNode node = cloth.member(key)) return node;
+    return cloth;
+}
+
 /// Warns of cloths that start through each other or themselves, where cloths meet. It is an error where the scene
 /// refuses that, or contact would hold all of a cloth in one place.
 void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartCrossing& crossing : start_crossings(scene)) {
-        const SceneNode cloth = cloths.element(crossing.second), placement = cloth.member("placement");
-        const SceneNode& blamed = placement ? placement : cloth;
+        const SceneNode blamed = start_node(cloths.element(crossing.second));
         const std::string text = crossing_text(scene, crossing);
         if (is_refused(scene, crossing))
             blamed.fail((crossing.gathered ? "expected a cloth with room between its particles: "
@@ -211,8 +205,7 @@ void check_crossings(const SceneNode& cloths, const SceneDescription& scene) {
 /// Warns of each cloth that starts inside a collider, which is an error where the scene refuses that.
 void check_overlaps(const SceneNode& cloths, const SceneDescription& scene) {
     for (const StartOverlap& overlap : start_overlaps(scene)) {
-        const SceneNode cloth = cloths.element(overlap.cloth), placement = cloth.member("placement");
-        const SceneNode& blamed = placement ? placement : cloth;
+        const SceneNode blamed = start_node(cloths.element(overlap.cloth));
         const std::string text = overlap_text(scene, overlap);
         if (scene.overlap == Overlap::refuse)
             blamed.fail("expected a start outside all colliders (/overlap is \"refuse\"): " + text);
@@ -284,12 +277,15 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     note_fabric(members.object());
     for (std::size_t i = 0; i < cloth.holes.size(); ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
-    if (fits && members.fit({"grid", "holes"}) && !leaves_a_cell(cloth))
-        fits = members["holes"].fail("expected holes that leave a cell of the cloth, got none left");
+    if (members.fit({"grid", "maps", "stiffness"})) fits = take_maps(members, cloth) && fits;
+    if (fits && members.fit({"grid", "holes", "maps"}) && !leaves_a_cell(cloth))
+        fits = members[members["holes"] ? "holes" : "maps"].fail(
+            "expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
     if (members.fit({"grid", "size", "self_collision"}))
         fits = check_self_collision(members["self_collision"], cloth) && fits;
+    if (members.fit({"grid", "size", "start"})) fits = take_start(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
         fits = check_resolution(members.object(), cloth) && fits;
         if (const double jitter = start_jitter(cloth); fits && jitter > cloth.placement.jitter)

@@ -11,8 +11,7 @@ bool check_capsule(const Members& members, Collider&) {
 bool check_mesh(const Members& members, Collider& collider) {
     if (!members.fit({"file", "scale", "shell"})) return false;
     Mesh& mesh = std::get<Mesh>(collider.shape);
-    mesh.file = members.object().beside(mesh.file);
-    members.object().note_better("file", drape::quoted(mesh.file));
+    mesh.file = members["file"].file(mesh.file).string();
     try {
         read_file(mesh);
     } catch (const Error& error) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/mesh_shape.h"
+#include "scene/start.h"
 
 namespace drape {
 
@@ -38,7 +39,10 @@ struct Grow {
 double covering_radius(const Cloth& cloth) {
     double squared = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, cloth.placement.scale[axis]);
+        // A given shape may be as uneven as cloth is that moves.
+        const double scale = cloth.start.empty() ? cloth.placement.scale[axis]
+                                                 : start_ratios(cloth, axis).largest / (1 + contact_stretch);
+        const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, scale);
         squared += spacing * spacing;
     }
     return 0.5 * (1 + contact_stretch) * std::sqrt(squared);

@@ -8,6 +8,7 @@
 #include "base/vectors.h"
 #include "scene/held.h"
 #include "scene/scene_rules.h"
+#include "scene/start.h"
 #include "scene/weather.h"
 
 namespace drape {
@@ -56,8 +57,10 @@ void warn_of_far(const SceneNode& path, const MotionPath& motion) {
 }
 
 void warn_of_cloth(const SceneNode& node, const Cloth& cloth) {
-    const double side = std::max(cloth.size[0] * std::abs(cloth.placement.scale[0]),
-                                 cloth.size[1] * std::abs(cloth.placement.scale[1]));
+    const StartBox box = start_box(cloth);
+    const double side = std::max({cloth.size[0] * std::abs(cloth.placement.scale[0]),
+                                  cloth.size[1] * std::abs(cloth.placement.scale[1]),
+                                  cloth.start.empty() ? 0.0 : length(minus(box.high, box.low))});
     if (side > large)
         node.member("size").warn(fmt::format("cloth \"{}\" is {:.4g} m long: {}", cloth.name, side, metres));
     if (cloth.areal_density > heavy)

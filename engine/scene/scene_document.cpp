@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -99,14 +98,6 @@ std::string unescaped_token(std::string token) {
 }
 
 }  // namespace
-
-std::string SceneDocument::beside(const std::string& name) const {
-    namespace fs = std::filesystem;
-    std::error_code code;
-    const fs::path scene = sources_.front().name;
-    const fs::path folder = fs::is_regular_file(scene, code) ? scene.parent_path() : fs::path();
-    return fs::absolute(folder / name).lexically_normal().string();
-}
 
 SceneDocument::SceneDocument(std::string_view text, std::string file_name)
     : text_(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text), lines_(text_) {

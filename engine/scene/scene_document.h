@@ -37,9 +37,6 @@ class SceneDocument {
     static constexpr const char* comma_message = "expected no comma after the last member";
     const Json::Value& root() const { return root_; }
 
-    /// Returns the absolute name of a file that the scene names: relative names start where the scene's file lies, or
-    /// in the working directory where it is no file.
-    std::string beside(const std::string& name) const;
     PlacedError place(std::size_t offset, std::string pointer, std::string message) const;
     /// Returns the text that a value was written as.
     std::string_view written(const Json::Value& value) const;

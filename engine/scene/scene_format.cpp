@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::string_view cloth_count = "an array of 1 to 1024 cloths";
 
-bool read_address(const SceneNode& node, SceneDescription&) {
+/// Reads a text that a rule takes up, or nobody.
+template <class Object>
+bool read_text(const SceneNode& node, Object&) {
     std::string ignored;
     return node.read(ignored);
 }
@@ -184,6 +186,28 @@ const Object<SelfCollision> self_collision{
          "Coulomb coefficient between layers. Absent: the cloth's. Two cloths have the geometric mean."},
     }};
 
+const Object<MapFiles> maps{
+    "maps",
+    "Pictures by which the cloth's cells differ: grey .png of up to 16 bits, or .npy [rows, columns] of uint8, uint16 "
+    "or bool, or of float32 or float64 from 0 to 1. The first row is row 0. A map with a pixel for each cell ((columns "
+    "- 1) x (rows - 1)) has their values; any other is sampled at their middles, bilinearly. Names are as of start.",
+    {
+        {"holes", &MapFiles::holes, without_default(text()), "File. Cells are missing where it is below one half."},
+        {"stiffness", &MapFiles::stiffness, without_default(text()),
+         "File. It scales stretch, shear and bend of each cell; a spring between two cells has half of each."},
+        {"stiffness_range", &MapFiles::stiffness_range, two_numbers(map_factor),
+         "Factors where the stiffness map is 0 and where it is 1; between, in proportion."},
+        {"density", &MapFiles::density, without_default(text()), "File. It scales the areal density of each cell."},
+        {"density_range", &MapFiles::density_range, two_numbers(map_factor),
+         "Factors where the density map is 0 and where it is 1; between, in proportion."},
+    }};
+
+/// Reads the maps' names; the rule of the cloth, which knows the grid, reads the files.
+bool read_maps(const SceneNode& node, Cloth&) {
+    MapFiles ignored;
+    return maps.read(node, ignored);
+}
+
 const Object<Cloth> cloth{
     "cloth",
     "A rectangular grid of particles. At most 16000000 particles in all cloths together. Single precision must resolve "
@@ -196,6 +220,12 @@ const Object<Cloth> cloth{
         {"size", &Cloth::size, two_numbers(positive),
          "Metres along the columns' direction u and the rows' direction v."},
         {"placement", &Cloth::placement, turned(placement), "Where the flat cloth starts."},
+        {"start", text().text, read_text<Cloth>,
+         "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "
+         "[frames, rows, columns, 3], float32 or float64), .npz (its array positions, as drape writes it), .obj (a "
+         "vertex for each particle, row by row) or .pc2; of several frames the last. At rest the cloth is still flat "
+         "and of its size. It starts without speed, or with velocity. A relative name is looked for beside the scene "
+         "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
@@ -211,12 +241,11 @@ const Object<Cloth> cloth{
          "likewise. particles: these alone; the cells between them dip in where the thickness does not hide it."},
         {"self_collision", &Cloth::self_collision, true_or(self_collision),
          "Whether the cloth meets itself. Once one of a scene's cloths does, all of them meet each other, those "
-         "without "
-         "it as with its defaults. No triangle then passes through one that it meets in any substep; the manifest says "
-         "whether that was proved. Triangles that a cutter has split meet nothing. A cloth that meets itself may not "
-         "start "
-         "gathered on a line or in a point."},
+         "without it as with its defaults. No triangle then passes through one that it meets in any substep; the "
+         "manifest says whether that was proved. Triangles that a cutter has split meet nothing. A cloth that meets "
+         "itself may not start gathered on a line or in a point."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
+        {"maps", Value<MapFiles>(maps).text, read_maps, "Holes, stiffness and density from pictures. Absent: none."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
         {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),
@@ -301,8 +330,7 @@ const Object<Collider> mesh{
     "a closed surface bounds, parts that overlap being one, or a shell. Contact knows its distance at the points of a "
     "lattice and interpolates between them. Its centre is the middle of its bounding box.",
     keys_of<Mesh>({
-        {"file", &Mesh::file, text(), "Its name; a relative one starts where the scene's file lies.",
-         "the name of a file"},
+        {"file", &Mesh::file, text(), "A relative name is looked for as a cloth's start is.", "the name of a file"},
         {"scale", &Mesh::scale, number(positive), "Metres per unit of the file."},
         {"position", &Mesh::position, vec3, "Metres: where the file's origin is."},
         {"shell", &Mesh::shell, optional(number(positive)),
@@ -460,7 +488,7 @@ const Object<SceneDescription> scene{
     "cloth may fall by more than 10000 of its edge lengths: gravity / (fps substeps)^2 (method auto: of 4096 substeps) "
     "over the edge length.",
     {
-        {"$schema", text().text, read_address, "Address of this schema, for editors. Ignored."},
+        {"$schema", text().text, read_text<SceneDescription>, "Address of this schema, for editors. Ignored."},
         {"name", &SceneDescription::name, text(), "Name of the scene."},
         {"time", &SceneDescription::time, time_settings, "Frames and their rate."},
         {"up", &SceneDescription::up, choice<Up>(up_spellings),

@@ -146,11 +146,6 @@ void SceneNode::note_default(const std::string& key, std::string value) const {
     report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
 }
 
-void SceneNode::note_better(const std::string& key, std::string value) const {
-    if (report_->missing == nullptr || report_->document.written(*member(key).value()) == value) return;
-    report_->missing->insert(report_->missing->begin(), {pointer_, key, std::move(value)});
-}
-
 void SceneNode::note_own_default(std::string value) const {
     if (report_->missing == nullptr) return;
     const std::size_t slash = pointer_.rfind('/');
@@ -227,7 +222,10 @@ bool SceneNode::read(std::string& field) const {
     return true;
 }
 
-std::string SceneNode::beside(const std::string& name) const { return report_->document.beside(name); }
+std::filesystem::path SceneNode::file(const std::string& name) const {
+    report_->files.push_back(name);
+    return std::filesystem::path(report_->folder) / name;
+}
 
 bool SceneNode::fail_expected(std::string_view what) const {
     if (report_->errors.counts_only(offset_)) return false;

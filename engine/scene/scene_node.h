@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cfloat>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,6 +59,8 @@ struct SceneReport {
     ErrorList warnings;
     std::vector<MissingKey>* missing = nullptr;  ///< null where they are not wanted
     Up up = Up::y;                               ///< the scene's, in whose world defaults are
+    std::string folder = {};                     ///< files that the scene names are looked for here
+    std::vector<std::string> files = {};         ///< those that were named
 };
 
 /// The numbers that a field may have. The kernels work in single precision, so "finite" means finite there.
@@ -95,8 +98,6 @@ class SceneNode {
     void note_missing(const Definition& definition) const;
     /// Tells the report that a missing key has this default (JSON) here, instead of the published one.
     void note_default(const std::string& key, std::string value) const;
-    /// Tells the report that a member is better written as `value` (JSON), where that is not what it says.
-    void note_better(const std::string& key, std::string value) const;
     /// The same for the missing key that this is.
     void note_own_default(std::string value) const;
     Up up() const { return report_->up; }
@@ -120,8 +121,8 @@ class SceneNode {
     template <class T>
     bool read_choice(T& field, std::span<const Spelling<T>> spellings) const;
 
-    /// Returns the absolute name of a file that is named here (SceneDocument::beside).
-    std::string beside(const std::string& name) const;
+    /// Returns where the file is that the scene names here, and notes that it does.
+    std::filesystem::path file(const std::string& name) const;
 
     /// Reports "expected <what>, got <what is here>".
     bool fail_expected(std::string_view what) const;

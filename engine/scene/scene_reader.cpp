@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 
 #include "base/printable_text.h"
@@ -58,8 +59,8 @@ std::string SceneError::text() const {
     return printable(place + ": " + message);
 }
 
-SceneResult read_scene_text(std::string_view text, const std::string& file_name,
-                            std::span<const std::string> overrides) {
+SceneResult read_scene_text(std::string_view text, const std::string& file_name, std::span<const std::string> overrides,
+                            const std::string& folder) {
     if (text.size() > scene_file_byte_limit) return failed({file_name, 0, 0, "", too_large(text.size())});
     SceneDocument document(text, file_name);
     if (document.errors().empty())
@@ -69,13 +70,14 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
         result.errors = first_errors(in_text_order(document.errors()), document.errors().size());
         return result;
     }
-    SceneReport report{document, {}, {}};
+    SceneReport report{document, {}, {}, nullptr, Up::y, folder};
     for (const std::size_t comma : document.trailing_commas())
         report.errors.add(document, comma, "", SceneDocument::comma_message);
     SceneDescription scene;
     read_scene_object(SceneNode(report, document.root()), scene);
     result.errors = report.errors.told();
     result.warnings = report.warnings.told();
+    result.files = std::move(report.files);
     if (result.errors.empty()) result.scene = std::move(scene);
     return result;
 }
@@ -99,12 +101,16 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
         if (count < wanted) break;
     }
     if (std::ferror(file.get()) != 0) return unreadable();
-    SceneResult result = read_scene_text(text, path, overrides);
+    SceneResult result = read_scene_text(text, path, overrides, scene_folder(path));
     result.text = std::move(text);
     return result;
 }
 
 void read_file(Mesh& mesh) { mesh.shape = read_mesh(mesh.file, mesh.scale, mesh.shell); }
+std::string scene_folder(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) ? std::filesystem::path(path).parent_path().string() : "";
+}
 
 SceneFailure::SceneFailure(SceneResult result) : Error(failure_text(result)), result_(std::move(result)) {}
 

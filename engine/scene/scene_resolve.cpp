@@ -14,12 +14,12 @@ namespace {
 /// with defaults of their own.
 class Resolution {
   public:
-    Resolution(std::string_view text, std::span<const std::string> overrides, const std::string& file_name)
-        : text_(text), overrides_(overrides.begin(), overrides.end()), file_name_(file_name) {}
+    Resolution(std::string_view text, std::span<const std::string> overrides, const std::string& folder)
+        : text_(text), overrides_(overrides.begin(), overrides.end()), folder_(folder) {}
 
     std::string run() {
         Reading reading = read();
-        if (!reading.errors.empty()) throw SceneFailure({{}, std::move(reading.errors), {}, {}, false});
+        if (!reading.errors.empty()) throw SceneFailure({{}, std::move(reading.errors), {}, {}, {}, false});
         const std::vector<SceneError> known = reading.warnings;
         while (add(reading.missing)) {
             reading = read();
@@ -38,7 +38,7 @@ class Resolution {
     };
 
     Reading read() {
-        SceneDocument document(text_, file_name_);
+        SceneDocument document(text_, "scene");
         Reading reading;
         if (document.errors().empty()) {
             for (const std::string& each : overrides_) document.apply_override(each);
@@ -49,7 +49,7 @@ class Resolution {
             for (const PlacedError& error : document.errors()) reading.errors.push_back(error.error);
             return reading;
         }
-        SceneReport report{document, {}, {}, &reading.missing};
+        SceneReport report{document, {}, {}, &reading.missing, Up::y, folder_};
         SceneDescription scene;
         read_scene_object(SceneNode(report, document.root()), scene);
         reading.errors = report.errors.told();
@@ -92,17 +92,16 @@ class Resolution {
 
     std::string_view text_;
     std::vector<std::string> overrides_;
+    std::string folder_;
     std::vector<Default> defaults_;
     std::set<std::string> left_out_;
-    std::string file_name_;
     SceneDescription last_{};  ///< keeps what its files hold, which the next reading then shares
 };
 
 }  // namespace
 
-std::string resolved_scene(std::string_view text, std::span<const std::string> overrides,
-                           const std::string& file_name) {
-    return Resolution(text, overrides, file_name).run();
+std::string resolved_scene(std::string_view text, std::span<const std::string> overrides, const std::string& folder) {
+    return Resolution(text, overrides, folder).run();
 }
 
 }  // namespace drape

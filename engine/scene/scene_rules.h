@@ -27,6 +27,19 @@ bool read_fabric(const SceneNode& node, Cloth& cloth);
 /// Notes the fabric's values as the defaults of the keys that it sets.
 void note_fabric(const SceneNode& cloth);
 
+/// A map scales by factors of this range.
+inline constexpr Range map_factor{1e-3, 1e3, false};
+
+/// The files that a cloth's maps are in, and their ranges; an empty name: there is none.
+struct MapFiles {
+    std::string holes, stiffness, density;
+    std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1};  ///< factors where a map is dark, and light
+};
+/// Reads the start of a cloth whose grid and size are known, from the file that it names.
+bool take_start(const Members& members, Cloth& cloth);
+/// Reads the maps of a cloth whose grid is known: holes become boxes, the others factors of cells.
+bool take_maps(const Members& members, Cloth& cloth);
+
 // The borders and corners belong to a grid whose last column and row are 1.
 inline constexpr Spelling<IndexBox> edge_spellings[] = {
     {"left", {{0, 0}, {0, 1}}}, {"right", {{1, 0}, {1, 1}}}, {"top", {{0, 0}, {1, 0}}}, {"bottom", {{0, 1}, {1, 1}}}};
@@ -36,7 +49,7 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
                                                           {"bottom_right", {{1, 1}, {1, 1}}}};
 
 bool check_capsule(const Members& members, Collider& collider);
-/// Makes the name of the mesh's file absolute, and reads it.
+/// Reads the mesh's file.
 bool check_mesh(const Members& members, Collider& collider);
 bool check_wind(const Members& members, Wind& wind);
 bool check_placement(const Members& members, Placement& placement);

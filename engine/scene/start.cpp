@@ -1,9 +1,12 @@
 #include "scene/start.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "base/vectors.h"
@@ -26,8 +29,61 @@ double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k)
         farthest = std::max(farthest, std::abs(cloth.placement.origin[k]) + std::abs(u[k]) + std::abs(v[k]));
+    for (const Vec3& at : cloth.start)
+        for (const double x : at) farthest = std::max(farthest, std::abs(x));
     const double cell = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
     return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
+}
+
+/// Calls `look` with three particles of every triangle.
+template <class Look>
+void for_triangles(const Cloth& cloth, const Look& look) {
+    const std::vector<bool> missing = missing_cells(cloth);
+    const std::size_t columns = cloth.grid[0], cells = columns - 1;
+    for (std::size_t row = 0; row + 1 < cloth.grid[1]; ++row)
+        for (std::size_t column = 0; column < cells; ++column) {
+            if (missing[row * cells + column]) continue;
+            const std::size_t first = row * columns + column, below = first + columns;
+            look(cloth.start[first], cloth.start[first + 1], cloth.start[below]);
+            look(cloth.start[first + 1], cloth.start[below + 1], cloth.start[below]);
+        }
+}
+
+double highest_triangle(const Cloth& cloth) {
+    double highest = 0;
+    for_triangles(cloth, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const double longest = std::max({length(minus(b, a)), length(minus(c, a)), length(minus(c, b))});
+        const double area = length(cross(minus(b, a), minus(c, a)));
+        if (longest > 0) highest = std::max(highest, area / longest);
+    });
+    return highest;
+}
+
+Vec3 summed_normal(const Cloth& cloth) {
+    Vec3 normal{};
+    for_triangles(cloth, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        normal = plus(normal, cross(minus(b, a), minus(c, a)));
+    });
+    return normal;
+}
+
+/// Calls `look` with the length of every spring of a given shape along u (axis 0) or v over its length at rest.
+template <class Look>
+void for_springs(const Cloth& cloth, std::size_t axis, const Look& look) {
+    const std::vector<bool> missing = missing_cells(cloth);
+    const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], step = axis == 0 ? 1 : columns;
+    const double rest = cloth.size[axis] / (cloth.grid[axis] - 1);
+    const auto is_there = [&](std::size_t column, std::size_t row) {
+        return column + 1 < columns && row + 1 < rows && !missing[row * (columns - 1) + column];
+    };
+    for (std::size_t row = 0; row + axis < rows; ++row)
+        for (std::size_t column = 0; column + 1 - axis < columns; ++column) {
+            const bool beside =
+                axis == 0 ? row > 0 && is_there(column, row - 1) : column > 0 && is_there(column - 1, row);
+            if (!beside && !is_there(column, row)) continue;
+            const std::size_t first = row * columns + column;
+            look(length(minus(cloth.start[first + step], cloth.start[first])) / rest);
+        }
 }
 
 std::vector<Vec3> jittered_positions(const Cloth& cloth) {
@@ -65,6 +121,7 @@ void untie(const Cloth& cloth, std::vector<Vec3>& positions) {
 /// Returns whether a cloth that meets itself may start through itself. Where jitter turns no triangle over, seen along
 /// the normal, none can cross another. Gathered cloth is refused.
 bool may_be_tied(const Cloth& cloth) {
+    if (!cloth.start.empty()) return false;
     const double height = start_height(cloth), jitter = start_jitter(cloth);
     return cloth.self_collision && height > resolution(cloth, side(cloth, 0), side(cloth, 1)) && height <= 4 * jitter;
 }
@@ -85,7 +142,23 @@ TriangleCrossings::Mesh start_mesh(const Cloth& cloth, std::vector<Vec3> at) {
     return mesh;
 }
 
+StartBox start_box(const Cloth& cloth) {
+    std::vector<Vec3> points = cloth.start;
+    const Vec3 u = side(cloth, 0), v = side(cloth, 1);
+    for (std::size_t corner = 0; cloth.start.empty() && corner < 4; ++corner)
+        points.push_back(
+            plus(plus(cloth.placement.origin, times(corner % 2 == 1 ? 1 : 0, u)), times(corner / 2 == 1 ? 1 : 0, v)));
+    StartBox box{points.front(), points.front()};
+    for (const Vec3& at : points)
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.low[k] = std::min(box.low[k], at[k]);
+            box.high[k] = std::max(box.high[k], at[k]);
+        }
+    return box;
+}
+
 double start_height(const Cloth& cloth) {
+    if (!cloth.start.empty()) return highest_triangle(cloth);
     double side[2];
     for (std::size_t axis = 0; axis < 2; ++axis)
         side[axis] = std::abs(cloth.placement.scale[axis]) * cloth.size[axis] / (cloth.grid[axis] - 1);
@@ -94,6 +167,7 @@ double start_height(const Cloth& cloth) {
 }
 
 double start_jitter(const Cloth& cloth) {
+    if (!cloth.start.empty()) return 0;
     const Vec3 u = side(cloth, 0), v = side(cloth, 1);
     const double resolved = resolution(cloth, u, v), longer = std::max(length(u), length(v));
     const Vec3 area{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -147,6 +221,7 @@ bool leaves_a_cell(const Cloth& cloth) {
 }
 
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
+    if (!cloth.start.empty()) return cloth.start[std::size_t{row} * cloth.grid[0] + column];
     const Placement& placement = cloth.placement;
     const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
     Vec3 at = placement.origin;
@@ -177,19 +252,59 @@ double start_untied(const Cloth& cloth) {
 }
 
 Vec3 start_normal(const Cloth& cloth) {
-    const Vec3 normal = cross(side(cloth, 0), side(cloth, 1));
+    const Vec3 normal = cloth.start.empty() ? cross(side(cloth, 0), side(cloth, 1)) : summed_normal(cloth);
     const double size = length(normal);
     return size > 0 ? Vec3{normal[0] / size, normal[1] / size, normal[2] / size} : Vec3{};
 }
 
 double start_strain(const Cloth& cloth) {
     double strain = 0;
+    if (!cloth.start.empty()) {
+        for (std::size_t axis = 0; axis < 2; ++axis)
+            for_springs(cloth, axis, [&](double ratio) { strain = std::max(strain, std::abs(ratio - 1)); });
+        return strain;
+    }
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const double cell = cloth.size[axis] / (cloth.grid[axis] - 1);
         const double far = 2 * std::sqrt(3.0) * cloth.placement.jitter / cell;
         strain = std::max(strain, std::abs(std::abs(cloth.placement.scale[axis]) - 1) + far);
     }
     return strain;
+}
+
+StartRatios start_ratios(const Cloth& cloth, std::size_t axis) {
+    StartRatios ratios{0, 0};
+    double count = 0;
+    for_springs(cloth, axis, [&](double ratio) {
+        ratios = {ratios.mean + ratio, std::max(ratios.largest, ratio)};
+        ++count;
+    });
+    return count > 0 ? StartRatios{ratios.mean / count, ratios.largest} : StartRatios{};
+}
+
+std::string start_fault(const Cloth& cloth) {
+    const std::size_t columns = cloth.grid[0], count = columns * cloth.grid[1];
+    const auto particle = [columns](std::size_t index) {
+        return fmt::format("particle [{}, {}]", index % columns, index / columns);
+    };
+    if (cloth.start.size() != count)
+        return fmt::format("a place for each of the {} particles, got {}", count, cloth.start.size());
+    for (std::size_t i = 0; i < count; ++i)
+        for (const double x : cloth.start[i])
+            if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+                return fmt::format("finite places, got {:g} for {}", x, particle(i));
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(
+        order, [&](std::size_t a, std::size_t b) { return std::tie(cloth.start[a], a) < std::tie(cloth.start[b], b); });
+    for (std::size_t i = 1; i < count; ++i)
+        if (cloth.start[order[i]] == cloth.start[order[i - 1]])
+            return fmt::format("a place of its own for each particle, got one place for {} and {}",
+                               particle(order[i - 1]), particle(order[i]));
+    if (!(highest_triangle(cloth) > resolution(cloth, {}, {})))
+        return "a shape with room between its particles, got triangles that are all thinner than single precision "
+               "tells";
+    return {};
 }
 
 }  // namespace drape

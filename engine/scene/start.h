@@ -1,6 +1,7 @@
 // Finds where the particles of a cloth start.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "drape/scene.h"
@@ -22,7 +23,7 @@ std::vector<bool> missing_cells(const Cloth& cloth);
 /// Returns whether the holes leave any cell.
 bool leaves_a_cell(const Cloth& cloth);
 
-/// Returns where a particle without jitter starts, m.
+/// Returns where a particle without jitter starts, m: as given, or flat as placed.
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row);
 
 /// Returns how far from its place a particle starts, m: up to `jitter` along each axis.
@@ -31,7 +32,13 @@ Vec3 start_offset(const Placement& placement, double jitter, std::uint32_t parti
 /// Returns the cloth's triangles with its particles at these places.
 TriangleCrossings::Mesh start_mesh(const Cloth& cloth, std::vector<Vec3> at);
 
-/// Returns the height of the cloth's triangles without jitter, m.
+/// The least box along the axes that holds a cloth without jitter, m.
+struct StartBox {
+    Vec3 low, high;
+};
+StartBox start_box(const Cloth& cloth);
+
+/// Returns the height of the cloth's triangles without jitter, m; of a given shape that of the highest.
 double start_height(const Cloth& cloth);
 
 /// Returns where every particle starts, m, row by row; the jitter moves those without a pin. Where it would have a
@@ -42,10 +49,21 @@ std::vector<Vec3> start_positions(const Cloth& cloth);
 /// Returns how far (m) that leaves a particle, at most, from where all of its jitter would move it.
 double start_untied(const Cloth& cloth);
 
-/// Returns the unit normal of the plane through three of the cloth's corners; 0 where they are on a line.
+/// Returns the unit normal of the plane through three of the cloth's corners, or of a given shape on average; 0 where
+/// there is none.
 Vec3 start_normal(const Cloth& cloth);
 
 /// Returns the most that a spring along u or v starts too long or too short by, over its length.
 double start_strain(const Cloth& cloth);
+
+/// Returns how long the springs of a given shape along u and v are over their lengths at rest.
+struct StartRatios {
+    double mean = 1, largest = 1;
+};
+StartRatios start_ratios(const Cloth& cloth, std::size_t axis);
+
+/// Returns what is wrong with a given shape, to follow "expected": not a place for every particle, one that is no
+/// number, two particles in one place, triangles that are all too thin. Empty: nothing.
+std::string start_fault(const Cloth& cloth);
 
 }  // namespace drape

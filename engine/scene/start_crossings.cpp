@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "base/vectors.h"
 #include "scene/start.h"
@@ -68,11 +70,25 @@ struct WayOff {
     Vec3 way;      ///< unit
 };
 
+/// Returns the way of `b` along the normal of `a`, of any shape, to the side on which it is sooner off it.
+WayOff way_off(const Sheet& a, const Sheet& b, const Vec3& normal) {
+    const auto heights = [&](const Sheet& sheet) {
+        const auto [low, high] =
+            std::ranges::minmax(sheet.at, {}, [&](const Vec3& x) { return dot(normal, minus(x, a.at.front())); });
+        return std::array{dot(normal, minus(low, a.at.front())), dot(normal, minus(high, a.at.front()))};
+    };
+    const auto [a_low, a_high] = heights(a);
+    const auto [b_low, b_high] = heights(b);
+    const double up = std::max(0.0, a_high - b_low), down = std::max(0.0, b_high - a_low), side = down < up ? -1 : 1;
+    return {std::min(up, down), {side * normal[0], side * normal[1], side * normal[2]}};
+}
+
 /// Returns the way of `b` to the side of the plane of `a` to which it reaches farther.
 WayOff way_off(const Sheet& a, const Sheet& b) {
     const Vec3 normal = start_normal(*a.cloth);
     if (!(length(normal) > 0)) return {std::numeric_limits<double>::infinity(), {}};
     double above = 0, below = 0;
+    if (!a.cloth->start.empty()) return way_off(a, b, normal);
     for (const Vec3& x : b.at) {
         const double height = dot(normal, minus(x, a.at.front()));
         above = std::max(above, height);
@@ -88,7 +104,79 @@ WayOff shorter_way_off(const Sheet& a, const Sheet& b) {
     return {first.depth, {-first.way[0], -first.way[1], -first.way[2]}};
 }
 
+/// Returns whether a triangle has a point on it, or up to `within` (m) off its plane.
+bool holds(const std::array<Vec3, 3>& corner, const Vec3& point, double within) {
+    const Vec3 u = minus(corner[1], corner[0]), v = minus(corner[2], corner[0]), from = minus(point, corner[0]);
+    const Vec3 normal = cross(u, v);
+    const double squared = dot(normal, normal);
+    if (!(squared > 0) || std::abs(dot(normal, from)) > within * std::sqrt(squared)) return false;
+    constexpr double least = -1e-6;
+    const double s = dot(cross(from, v), normal) / squared, t = dot(cross(u, from), normal) / squared;
+    return s >= least && t >= least && s + t <= 1 - least;
+}
+
+/// Points in slabs across one axis, those of a slab in the order of another: boxes find theirs without looking at all.
+class Slabs {
+  public:
+    /// Takes the two axes along which the box is longest.
+    Slabs(std::vector<Vec3> points, const Vec3& lower, const Vec3& upper, double width)
+        : points_(std::move(points)), lower_(lower), width_(width) {
+        std::array<std::size_t, 3> axes{0, 1, 2};
+        std::ranges::sort(axes, std::greater(), [&](std::size_t axis) { return upper[axis] - lower[axis]; });
+        across_ = axes[0], along_ = axes[1];
+        std::ranges::sort(points_, {}, [this](const Vec3& x) { return key(x); });
+    }
+
+    /// Returns whether a point in the box is one that `test` wants.
+    template <class Test>
+    bool any(const Vec3& low, const Vec3& high, const Test& test) const {
+        for (double slab = slab_of(low); slab <= slab_of(high); ++slab) {
+            const auto first = std::ranges::lower_bound(points_, std::pair(slab, low[along_]), {},
+                                                        [this](const Vec3& x) { return key(x); });
+            for (auto x = first; x != points_.end() && key(*x) <= std::pair(slab, high[along_]); ++x)
+                if (test(*x)) return true;
+        }
+        return false;
+    }
+
+  private:
+    double slab_of(const Vec3& x) const { return std::floor((x[across_] - lower_[across_]) / width_); }
+    std::pair<double, double> key(const Vec3& x) const { return {slab_of(x), x[along_]}; }
+
+    std::vector<Vec3> points_;
+    Vec3 lower_;
+    double width_;
+    std::size_t across_ = 0, along_ = 1;
+};
+
+/// Returns whether any particle of `a` is on the triangles of `b`, of any shape.
+bool lies_on(const Sheet& a, const Sheet& b, double within) {
+    std::vector<Vec3> near;
+    for (const Vec3& x : a.at) {
+        bool is_near = true;
+        for (std::size_t k = 0; k < 3; ++k)
+            is_near = is_near && x[k] >= b.lower[k] - within && x[k] <= b.upper[k] + within;
+        if (is_near) near.push_back(x);
+    }
+    const double width =
+        std::max(length(minus(b.upper, b.lower)) / std::sqrt(static_cast<double>(b.at.size())), within);
+    const Slabs points(std::move(near), b.lower, b.upper, width);
+    const TriangleCrossings::Mesh mesh = b.mesh();
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::array<Vec3, 3> corner{mesh.points[mesh.indices[i]], mesh.points[mesh.indices[i + 1]],
+                                         mesh.points[mesh.indices[i + 2]]};
+        Vec3 low, high;
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min({corner[0][k], corner[1][k], corner[2][k]}) - within;
+            high[k] = std::max({corner[0][k], corner[1][k], corner[2][k]}) + within;
+        }
+        if (points.any(low, high, [&](const Vec3& x) { return holds(corner, x, within); })) return true;
+    }
+    return false;
+}
+
 bool touches(const Sheet& a, const Sheet& b, double within) {
+    if (!a.cloth->start.empty() || !b.cloth->start.empty()) return lies_on(a, b, within) || lies_on(b, a, within);
     return std::ranges::any_of(a.at, [&](const Vec3& x) { return b.holds(x, within); }) ||
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
@@ -98,9 +186,10 @@ bool is_gathered(const Sheet& sheet) {
     return !(start_height(*sheet.cloth) > sheet.doubt - sheet.cloth->placement.jitter);
 }
 
-/// Returns whether a cloth that should be flat crosses itself. Where jitter turns no triangle over, seen along the
+/// Returns whether a cloth that may not cross itself does. Where jitter turns no triangle over, seen along the
 /// normal, none can cross another.
 bool crosses_itself(const Sheet& sheet) {
+    if (!sheet.cloth->start.empty()) return TriangleCrossings({sheet.mesh()}).any();
     return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) && TriangleCrossings({sheet.mesh()}).any();
 }
 

@@ -28,6 +28,12 @@ bool are_keys(const std::vector<VectorKey>& keys) {
     return std::ranges::all_of(keys, is_number) && std::ranges::adjacent_find(keys, not_before) == keys.end();
 }
 
+/// Returns whether there are no factors, or one for every cell, between the two.
+bool has_factors(const Cloth& cloth, const std::vector<float>& factors, float least, float most) {
+    return factors.empty() || (factors.size() == std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1) &&
+                               std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
+}
+
 }  // namespace
 
 const SceneDescription& checked_scene(const SceneDescription& scene) {
@@ -55,6 +61,15 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     }
     expect(are_keys(scene.gravity_keys), "/gravity_keys", "numbers at times that increase");
     expect(are_keys(scene.wind.keys), "/wind/keys", "numbers at times that increase");
+    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const std::string at = fmt::format("/cloths/{}", i);
+        if (!cloth.start.empty()) expect(start_fault(cloth).empty(), at + "/start", start_fault(cloth).c_str());
+        expect(has_factors(cloth, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
+               "a factor of at most 1, and not 0, for every cell");
+        expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
+               "a factor of at least 1 for every cell");
+    }
     expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
     expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",

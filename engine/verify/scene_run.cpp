@@ -71,8 +71,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     return run;
 }
 
-ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
-    : grid(scene.cloths[index].grid[0], scene.cloths[index].grid[1], scene.cloths[index].holes) {
+ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index) : grid(scene.cloths[index]) {
     const Cloth& cloth = scene.cloths[index];
     spacing[0] = cloth.size[0] / (grid.columns() - 1);
     spacing[1] = cloth.size[1] / (grid.rows() - 1);
@@ -80,8 +79,8 @@ ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
     // Each triangle gives its corners what makes a whole cell give a quarter of its mass to each corner.
     for (std::uint32_t row = 0; row + 1 < grid.rows(); ++row)
         for (std::uint32_t column = 0; column + 1 < grid.columns(); ++column) {
-            if (grid.cell(static_cast<int>(column), static_cast<int>(row)) == 0) continue;
-            const double share = 0.25 * cloth.areal_density * spacing[0] * spacing[1];
+            const double factor = grid.cell_density(static_cast<int>(column), static_cast<int>(row));
+            const double share = 0.25 * factor * cloth.areal_density * spacing[0] * spacing[1];
             for (const std::uint32_t below : {0u, 1u})
                 for (const std::uint32_t right : {0u, 1u}) mass[grid.particle(column + right, row + below)] += share;
         }

@@ -41,12 +41,12 @@ SHARED ivec2 twist_corner(ivec2 element, ivec2 first) {
     return ivec2(2 * element.x + first.x, 2 * element.y + first.y);
 }
 
-/// Returns 1 when the cell is whole, else 0: a missing or cut cell has no twist. The arguments are the spring shares of
-/// three of its corners, which own its four sides (x: rows, y: columns) and its two diagonals (z, w); the diagonals
-/// reveal a hole of one cell, whose sides all belong to neighbours too.
+/// Returns the factor of the cell's stiffness when it is whole, else 0: a missing or cut cell has no twist. The
+/// arguments are the spring shares of three of its corners, which own its four sides (x: rows, y: columns) and its two
+/// diagonals (z, w); the diagonals reveal a hole of one cell, whose sides all belong to neighbours too.
 SHARED float twist_share(vec4 upper_left, vec4 upper_right, vec4 lower_left) {
     bool sides = upper_left.x > 0.0f && upper_left.y > 0.0f && upper_right.y > 0.0f && lower_left.x > 0.0f;
-    return sides && upper_left.z > 0.0f && upper_right.w > 0.0f ? 1.0f : 0.0f;
+    return sides && upper_left.z > 0.0f && upper_right.w > 0.0f ? upper_left.z : 0.0f;
 }
 
 /// Inverse mass that a cell's twist feels.

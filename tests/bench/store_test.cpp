@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/output_error.h"
 #include "bench/bench_case.h"
-#include "output/output_error.h"
 #include "output/temporary_folder.h"
 #include "results.h"
 

@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "output/output_error.h"
-#include "output/png.h"
+#include "base/output_error.h"
+#include "input/png_picture.h"
 
 namespace drape {
 

@@ -53,6 +53,23 @@ TEST(GridTest, SpringsAlongABorderHaveHalfTheStiffnessAndDiagonalsNever) {
     EXPECT_EQ(grid.spring_shares(1, 1).x, 1.0f);
 }
 
+TEST(GridTest, CellsThatDifferGiveTheirOwnSharesAndMasses) {
+    Cloth cloth;
+    cloth.grid = {3, 3};
+    cloth.cell_stiffness = {0.5f, 1, 0.25f, 0.75f};
+    cloth.cell_density = {1, 2, 3, 4};
+    const Grid grid(cloth);
+    EXPECT_FALSE(grid.whole());
+    EXPECT_EQ(grid.spring_shares(0, 1).x, 0.375f) << "half of the cells above and below";
+    EXPECT_EQ(grid.spring_shares(1, 0).y, 0.75f);
+    EXPECT_EQ(grid.spring_shares(0, 0).x, 0.25f) << "along the border";
+    EXPECT_EQ(grid.spring_shares(1, 1).z, 0.75f);
+    EXPECT_EQ(grid.spring_shares(1, 1).w, 0.25f);
+    EXPECT_EQ(grid.relative_inverse_mass(1, 1), 0.4f);
+    EXPECT_EQ(grid.relative_inverse_mass(0, 0), 4.0f);
+    EXPECT_EQ(grid.relative_inverse_mass(2, 1), 4.0f / 6.0f);
+}
+
 TEST(GridTest, AHoleTakesItsCellsSpringsMassAndTriangles) {
     const IndexBox hole{{1, 1}, {4, 3}};  // 3 x 2 cells
     const Grid grid(6, 5, {&hole, 1});

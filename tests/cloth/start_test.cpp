@@ -90,6 +90,33 @@ TEST(StartTest, TheReaderSaysThatItParts) {
     EXPECT_THAT(warned(R"({"scale": [0, 0], "jitter": 0.1})"), IsEmpty());
 }
 
+/// A sheet bent by a right angle along its middle column.
+TEST(StartTest, AGivenShapeIsWhereEveryParticleStarts) {
+    SceneDescription scene = scene_with({1, 1});
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {};
+    for (std::uint32_t row = 0; row < 4; ++row)
+        for (std::uint32_t column = 0; column < 5; ++column)
+            cloth.start.push_back({0.25 * std::min(column, 2u), -0.5 * row, column > 2 ? 0.25 * (column - 2) : 0});
+    cloth.pins = {test::pin_top(cloth)};
+    cloth.pins[0].path.keys = {{0, {}, {}}, {1, {0, 1, 0}, {}}};
+    const ClothModel model(scene, 0);
+    for (std::size_t i = 0; i < cloth.start.size(); ++i) {
+        EXPECT_EQ(model.position[i].x, cloth.start[i][0]);
+        EXPECT_EQ(model.position[i].z, cloth.start[i][2]);
+    }
+    EXPECT_EQ(model.start_strain, 0) << "bent, not stretched";
+    EXPECT_EQ(model.pinned.at(4).rest.z, 0.5f);
+    EXPECT_NEAR(model.dynamic_pins.at(0).pivot[0], (0.25 + 3 * 0.5) / 5, 1e-12);
+    EXPECT_NEAR(model.dynamic_pins.at(0).pivot[2], 0.75 / 5, 1e-12);
+    EXPECT_EQ(model.start_direction(6, 0), (Vec3{1, 0, 0}));
+    EXPECT_EQ(model.start_direction(9, 0), (Vec3{0, 0, 1}));
+    EXPECT_EQ(model.start_direction(9, 1), (Vec3{0, -1, 0}));
+    EXPECT_EQ(start_box(cloth).high, (Vec3{0.5, 0, 0.5}));
+    EXPECT_NEAR(start_normal(cloth)[0] / start_normal(cloth)[2], -1, 1e-12);
+    EXPECT_EQ(start_jitter(cloth), 0);
+}
+
 TEST(StartTest, TheWatchKnowsWhatTheStartStrains) {
     const SimulationModel stretched(scene_with({3, 1})), plain(scene_with({1, 1}));
     ClothStatistics statistics;

@@ -12,13 +12,13 @@
 #include <optional>
 #include <set>
 
-#include "compare/array_file.h"
 #include "crossing_checker.h"
+#include "input/array_file.h"
 
 namespace drape::test {
 namespace {
 
-using compare::Array;
+using input::Array;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 struct RunCloth {
@@ -45,7 +45,7 @@ std::optional<RunCloth> cloth_of(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     if (!stem.starts_with("positions") || file.extension() != ".npz") return {};
     RunCloth cloth{stem == "positions" ? "" : stem.substr(std::strlen("positions_")), {}, {}};
-    for (Array& array : compare::load_arrays(file)) {
+    for (Array& array : input::load_arrays(file)) {
         if (array.name == "faces" || array.name.starts_with("faces_"))
             cloth.faces[array.name == "faces" ? 0 : std::stoull(array.name.substr(6))] =
                 in_threes(values_of<std::int32_t>(array));

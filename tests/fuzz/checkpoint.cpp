@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/byte_stream.h"
+#include "base/output_error.h"
 #include "cloth/substep_control.h"
-#include "output/output_error.h"
 #include "run/checkpoints.h"
 #include "section_input.h"
 

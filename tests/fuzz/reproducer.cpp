@@ -2,7 +2,7 @@
 // can be loaded or says why not.
 #include "run/reproducer.h"
 
-#include "output/output_error.h"
+#include "base/output_error.h"
 #include "section_input.h"
 
 namespace drape {

@@ -100,6 +100,41 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     EXPECT_GT(pieces, 10u);
 }
 
+/// The cloth starts bent, and its cells differ in stiffness and density.
+TEST(CutTest, CutsOfAGivenShapeWithMapsEqualTheTwin) {
+    constexpr std::uint32_t cut_count = 60;
+    SceneDescription scene = test::sheet(40, 36, 0.9, 0.8, 4);
+    scene.time.frame_count = cut_count + 2;
+    Cloth& cloth = scene.cloths[0];
+    cloth.stiffness.bend = 1e-4;
+    cloth.pins = {test::pin_top(cloth)};
+    for (std::size_t cell = 0; cell < std::size_t{39} * 35; ++cell) {
+        cloth.cell_stiffness.push_back(0.2f + 0.8f * static_cast<float>(cell % 11) / 10);
+        cloth.cell_density.push_back(1 + static_cast<float>(cell % 3));
+    }
+    for (std::size_t i = 0; i < std::size_t{40} * 36; ++i) {
+        const double x = 0.9 * static_cast<double>(i % 40) / 39, y = 0.8 * static_cast<double>(i / 40) / 35;
+        cloth.start.push_back({std::sin(x), -y, 0.1 * std::cos(3 * x)});
+    }
+    scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
+    test::TwinWithCuts twin(scene);
+    std::uint32_t cuts = 0;
+    FrameLoopOptions options = positions_only();
+    options.on_cut = [&](const CutEvent&, const CutTopology& topology) { test::expect_consistent(topology); };
+    FrameLoop loop(test::gpu().device, twin.model(), options);
+    loop.run(
+        cut_count + 1, [](std::uint32_t) { return true; },
+        [&](const FinishedFrame& frame) {
+            if (testing::Test::HasFailure()) return;
+            cuts += twin.run_frame(frame.frame).any();
+            std::string where;
+            ASSERT_TRUE(test::same_bits(texels(frame.positions[0]), twin.position(0), where))
+                << "frame " << frame.frame << ": " << where;
+        },
+        [] { return testing::Test::HasFailure(); });
+    EXPECT_GT(cuts, 20u);
+}
+
 /// Mass-weighted centre of the particles below the cut.
 Vec3 centre_below(const SimulationModel& model, std::span<const float> xyzw, std::uint32_t first_row) {
     Vec3 sum{};

@@ -154,6 +154,27 @@ TEST_F(EnsembleTest, ScenesOfSeveralClothsWithHolesAndTethers) {
     expect_each_as_alone(drawn(scene, 5, seed), 6, true);
 }
 
+/// Every member starts in a shape of its own, but all have the same maps.
+TEST_F(EnsembleTest, OfGivenStartsAndMaps) {
+    SceneDescription scene = scene_of();
+    Cloth& cloth = scene.cloths[0];
+    const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        cloth.cell_stiffness.push_back(0.25f + 0.75f * static_cast<float>(cell % 7) / 6);
+        cloth.cell_density.push_back(1 + static_cast<float>(cell % 5));
+    }
+    std::vector<SceneDescription> members = drawn(scene, 4, seed);
+    for (std::size_t k = 0; k < members.size(); ++k)
+        for (std::uint32_t i = 0; i < cloth.grid[0] * cloth.grid[1]; ++i) {
+            const double column = i % cloth.grid[0], row = i / cloth.grid[0];
+            members[k].cloths[0].start.push_back(
+                {0.04 * column - 0.4, 1.2 - 0.04 * row, 0.02 * std::sin(0.5 * column + static_cast<double>(k))});
+        }
+    expect_each_as_alone(members, 6, true);
+    members[2].cloths[0].cell_density[3] = 9;
+    EXPECT_THROW(Ensemble(members, {}, library_device()), Error);
+}
+
 TEST_F(EnsembleTest, WithoutWindAndColliders) {
     SceneDescription scene = scene_of({"/solver/substeps=3"});
     scene.colliders.clear();

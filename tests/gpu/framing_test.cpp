@@ -118,6 +118,43 @@ TEST(FixtureTest, PinnedEdgesHangOnPolesAndRailsAndCornersOnPoles) {
     EXPECT_TRUE(fixtures(scene).empty());
 }
 
+TEST(Fixtures, ARowThatAGivenShapeBendsHangsOnNoBar) {
+    SceneDescription scene;
+    scene.cloths.resize(1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.grid = {9, 9};
+    cloth.pins = {{.particles = {{0, 0}, {8, 0}}}};
+    const auto shape = [&](double bend) {
+        cloth.start.clear();
+        for (int row = 0; row < 9; ++row)
+            for (int column = 0; column < 9; ++column)
+                cloth.start.push_back({0.125 * column, 2 - 0.125 * row, bend * std::sin(0.3927 * column)});
+    };
+    shape(0);
+    EXPECT_EQ(fixtures(scene).size(), 3u) << "a rail with two ends";
+    shape(0.2);
+    EXPECT_TRUE(fixtures(scene).empty());
+}
+
+TEST(Framing, HoldsAGivenShape) {
+    SceneDescription scene;
+    scene.cloths.resize(1);
+    Cloth& cloth = scene.cloths[0];
+    cloth.grid = {33, 33};
+    for (int row = 0; row < 33; ++row)
+        for (int column = 0; column < 33; ++column)  // a tube, whose corners are near each other
+            cloth.start.push_back({7 + 3 * std::cos(0.19 * column), 0.2 * row, 3 * std::sin(0.19 * column)});
+    const Camera camera = picture_camera(scene, width, height);
+    for (const Vec3& at : cloth.start) {
+        const PixelPosition seen = project(camera, width, height, at);
+        EXPECT_TRUE(seen.x >= 0 && seen.x < width && seen.y >= 0 && seen.y < height) << seen.x << " " << seen.y;
+    }
+    for (const Vec3& at : cloth.start) {
+        const Vec3 away = at + -1 * scene_extent(scene).center;
+        EXPECT_LE(std::hypot(away[0], away[1], away[2]), scene_extent(scene).radius);
+    }
+}
+
 TEST(RoundMesh, HasNoMoreSegmentsThanItsOutlineShows) {
     const auto cuts = [](double radius, std::uint32_t columns) {
         return radius * (1 - std::cos(std::numbers::pi / columns));

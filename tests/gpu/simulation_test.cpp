@@ -259,6 +259,15 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
         const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
         scene.cloths[0].holes = {{{0, 0}, {grid[0] - 1, grid[1] - 1}}};
     });
+    refused("/cloths/0/start", [](SceneDescription& scene) { scene.cloths[0].start.resize(7); });
+    refused("/cloths/0/start", [](SceneDescription& scene) {
+        scene.cloths[0].start.resize(std::size_t{scene.cloths[0].grid[0]} * scene.cloths[0].grid[1]);
+    });
+    refused("/cloths/0/cell_stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
+    refused("/cloths/0/cell_density", [](SceneDescription& scene) {
+        const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
+        scene.cloths[0].cell_density.assign(std::size_t{grid[0] - 1} * (grid[1] - 1), 0.5f);
+    });
     refused("/cloths/0", [](SceneDescription& scene) {
         scene.overlap = Overlap::refuse;
         scene.colliders = {{Sphere{{0, 0, 0}, 100}}};

@@ -9,7 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "output/output_error.h"
+#include "base/output_error.h"
+#include "input/png_picture.h"
 #include "temporary_folder.h"
 
 namespace drape {

@@ -78,6 +78,25 @@ class Scenes(unittest.TestCase):
         self.assertEqual(scene.frame_count, 3)
         self.assertEqual(scene.to_dict()["cloths"][0]["size"], [1, 1])
 
+    def test_shapes_and_maps_are_looked_for_beside_a_scene_file(self):
+        across, down = np.meshgrid(np.linspace(-0.4, 0.4, 9), np.linspace(1, 0.4, 7))
+        shape = np.stack([across, down, 0.05 * np.sin(9 * across)], axis=2).astype(np.float32)
+        cloth = {"grid": [9, 7], "size": [0.8, 0.6], "start": "shape.npy", "maps": {"holes": "cells.npy"}}
+        scene = sheet(cloths=[cloth])
+        with tempfile.TemporaryDirectory() as folder:
+            np.save(pathlib.Path(folder) / "shape.npy", shape)
+            np.save(pathlib.Path(folder) / "cells.npy", np.arange(48).reshape(6, 8) != 20)
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text(json.dumps(scene))
+            loaded = drape.load(path, {"/time/frames": 2})
+            simulation = drape.Simulation(loaded)
+            simulation.step()
+            np.testing.assert_array_equal(simulation.positions(0), shape)
+            self.assertEqual(len(simulation.faces(0)), 2 * (48 - 1))
+            with self.assertRaises(drape.SceneError) as caught:  # a dict has no place
+                drape.parse(scene)
+        self.assertIn("/cloths/0/start: cannot read 'shape.npy'", str(caught.exception))
+
     def test_warnings_say_where(self):
         cloth = sheet()["cloths"][0]
         overlapping = [cloth, dict(cloth, name="other")]

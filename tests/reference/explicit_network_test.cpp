@@ -60,5 +60,29 @@ TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForces) {
     }
 }
 
+/// Cells are up to ten times as stiff and five times as heavy as others.
+TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForcesWhereCellsDiffer) {
+    SceneDescription scene = test::sheet(14, 11, 1.0, 0.6, 100);
+    scene.solver.method = SolverMethod::explicit_steps;
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins = {test::pin_box(3, 0, 5, 1)};
+    cloth.holes = {{{9, 7}, {13, 10}}};
+    std::mt19937 random(5);
+    for (int cell = 0; cell < 13 * 10; ++cell) {
+        cloth.cell_stiffness.push_back(std::uniform_real_distribution<float>(0.1f, 1)(random));
+        cloth.cell_density.push_back(std::uniform_real_distribution<float>(1, 5)(random));
+    }
+    for (const Stiffness& stiffness : {Stiffness{false, 80, 30, 0}, Stiffness{false, 0, 0, 1e-2}}) {
+        cloth.stiffness = stiffness;
+        EXPECT_LE(force_error(scene), 1e-5);
+    }
+    double heavy = 0;
+    for (const double mass : SpringNetwork(scene, 0).mass) heavy += mass;
+    double expected = 0;
+    for (int cell = 0; cell < 13 * 10; ++cell)
+        if (cell / 13 < 7 || cell % 13 < 9) expected += double{cloth.cell_density[static_cast<std::size_t>(cell)]};
+    EXPECT_NEAR(heavy, expected * cloth.areal_density * (1.0 / 13) * (0.6 / 10), 1e-9);
+}
+
 }  // namespace
 }  // namespace drape

@@ -3,7 +3,8 @@
 
 namespace drape::testing {
 
-inline constexpr const char* full_scene = R"json({
+inline constexpr const char* full_scene =
+    R"json({
   // comments are part of the format
   "$schema": "scene.schema.json",
   "name": "everything",
@@ -25,7 +26,12 @@ inline constexpr const char* full_scene = R"json({
                "path": [{"t": 0, "translate": [0, 0, 0]}, {"t": 1.5, "translate": [0.2, 0, 0.1], "rotate": [0, 720, 5]}]},
               {"box": [[1, 2], [3, 4]]}],
      "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
-    {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"}],
+    {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"},
+    {"name": "given", "grid": [3, 5], "start": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/shape.obj"},
+    {"name": "mapped", "grid": [5, 3], "placement": {"origin": [-9, 9, 9]},
+     "maps": {"holes": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png",
+              "stiffness": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "stiffness_range": [0.5, 2],
+              "density": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "density_range": [3, 0.5]}}],
   "colliders": {
     "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
                 "path": [{"t": 0}]}],
@@ -38,7 +44,8 @@ inline constexpr const char* full_scene = R"json({
     "capsules": [{"from": [0, 1, 0.25], "to": [1, 2, 3], "radii": [0.2, 0.1], "friction": 0.7, "rotate": [1, 8, 9],
                   "color": [0.5, 0.1, 0.2], "path": [{"t": 4}]},
                  {"radius": 0.125}],
-    "meshes": [{"file": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/box.obj", "scale": 0.5, "position": [1, 2, 3], "shell": 0.25, "spacing": 0.125,
+    "meshes": [{"file": ")json" DRAPE_SOURCE_DIR
+    R"json(/tests/scene/box.obj", "scale": 0.5, "position": [1, 2, 3], "shell": 0.25, "spacing": 0.125,
                 "friction": 0.8, "rotate": [2, 4, 6], "color": [0.6, 0.1, 0.2], "path": [{"t": 5}]}]},
   "overlap": "refuse",
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],

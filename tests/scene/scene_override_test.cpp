@@ -82,7 +82,7 @@ TEST(SceneOverride, ErrorsSayWhichOverride) {
               Texts{"--set '/cloths/0/pins/5={}': /cloths/0/pins/5: expected an index into the 4 elements of "
                     "/cloths/0/pins, or - for a new one, got \"5\""});
     EXPECT_EQ(errors_with({"/cloths/01={}"}), Texts{"--set '/cloths/01={}': /cloths/01: expected an index "
-                                                    "into the 2 elements of /cloths, or - for a new one, got \"01\""});
+                                                    "into the 4 elements of /cloths, or - for a new one, got \"01\""});
     EXPECT_EQ(errors_with({"/name/x=1"}),
               Texts{"--set '/name/x=1': /name/x: expected /name to be an object or an array"});
     EXPECT_EQ(errors_with({"time=1"}), Texts{"--set 'time=1': expected /json/pointer=value"});

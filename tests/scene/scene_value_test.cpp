@@ -46,7 +46,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
 
 TEST(SceneValues, ClothOfTheFullScene) {
     const SceneDescription scene = scene_of(testing::full_scene);
-    ASSERT_EQ(scene.cloths.size(), 2u);
+    ASSERT_EQ(scene.cloths.size(), 4u);
     const Cloth& cloth = scene.cloths[0];
     EXPECT_EQ(cloth.name, "banner");
     EXPECT_EQ(cloth.grid, (std::array<std::uint32_t, 2>{96, 64}));
@@ -65,6 +65,23 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
+}
+
+TEST(SceneValues, FilesOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    const Cloth& given = scene.cloths[2];
+    ASSERT_EQ(given.start.size(), 15u);
+    EXPECT_EQ(given.start[0], (Vec3{9, 9, 0}));
+    EXPECT_EQ(given.start[8], (Vec3{10, 8.5, 0.125}));
+    EXPECT_EQ(given.placement, Placement{});
+    // The picture's cells are 0, 1, 1, 1 over 1, 0.4, 1, 0.
+    const Cloth& mapped = scene.cloths[3];
+    EXPECT_EQ(mapped.holes, (std::vector<IndexBox>{{{0, 0}, {1, 1}}, {{1, 1}, {2, 2}}, {{3, 1}, {4, 2}}}));
+    EXPECT_EQ(mapped.stiffness.stretch, 2 * Stiffness{}.stretch) << "the stiffest cell's";
+    EXPECT_EQ(mapped.stiffness.bend, 2 * Stiffness{}.bend);
+    EXPECT_EQ(mapped.cell_stiffness, (std::vector<float>{0.25f, 1, 1, 1, 1, 0.55f, 1, 0.25f}));
+    EXPECT_EQ(mapped.areal_density, 0.5 * Cloth{}.areal_density) << "the lightest cell's";
+    EXPECT_EQ(mapped.cell_density, (std::vector<float>{6, 1, 1, 1, 1, 4, 1, 6}));
 }
 
 TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {
@@ -130,9 +147,9 @@ TEST(SceneValues, FilesLieBesideTheScene) {
     ASSERT_TRUE(mesh.shape);
     EXPECT_NEAR(mesh.shape->middle()[0], 0.5, 1e-6);
     EXPECT_NEAR(mesh.shape->half_extents()[0], 0.15, 1e-6);
-    // Written out, the name holds from everywhere.
-    EXPECT_NE(resolved_scene(text, {}, path).find("\"" + body + "\""), std::string::npos);
-    EXPECT_EQ(parse_scene(resolved_scene(text, {}, path)).colliders, scene.colliders);
+    const SceneResult again = read_scene_text(resolved_scene(text, {}, folder.string()), "again", {}, folder.string());
+    EXPECT_EQ(again.scene.value().colliders, scene.colliders);
+    EXPECT_EQ(again.files, std::vector<std::string>{"bodies/box.obj"});
     EXPECT_THROW(parse_scene(text), SceneFailure);
 }
 

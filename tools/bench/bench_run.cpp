@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <fstream>
 
+#include "base/output_error.h"
 #include "output/atomic_file.h"
 #include "output/file_descriptor.h"
 #include "output/manifest.h"
-#include "output/output_error.h"
 #include "run/run.h"
 
 namespace drape::bench {

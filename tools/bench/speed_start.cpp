@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/output_error.h"
 #include "bench/measure.h"
 #include "bench/speed_measure.h"
-#include "output/output_error.h"
 
 namespace drape::bench {
 

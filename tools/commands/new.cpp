@@ -6,9 +6,9 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
 #include "options.h"
-#include "output/output_error.h"
 #include "program.h"
 #include "scene/nearest_word.h"
 #include "scene_templates.h"

@@ -9,11 +9,11 @@
 #include <mutex>
 #include <thread>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
 #include "ending.h"
 #include "options.h"
 #include "output/atomic_file.h"
-#include "output/output_error.h"
 #include "program.h"
 #include "streams.h"
 #include "sweep/groups.h"

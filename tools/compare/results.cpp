@@ -10,17 +10,18 @@
 #include <set>
 
 #include "base/printable_text.h"
-#include "compare/array_file.h"
+#include "input/array_file.h"
+#include "input/png_picture.h"
 #include "output/atomic_file.h"
 #include "output/json_file.h"
 #include "output/json_text.h"
-#include "output/png.h"
 
 namespace drape::compare {
 
 namespace {
 
 namespace fs = std::filesystem;
+using input::Array;
 
 /// Largest and RMS difference, and where the largest is. What is NaN on one side alone is infinitely far away.
 class Differences {
@@ -162,7 +163,7 @@ Row only_in(const std::string& name, const fs::path& where) {
 }
 
 std::vector<Row> compare_array_files(const fs::path& a, const fs::path& b, const Limits& limits) {
-    const std::vector<Array> before = load_arrays(a), after = load_arrays(b);
+    const std::vector<Array> before = input::load_arrays(a), after = input::load_arrays(b);
     const std::string file = a.filename().string();
     const Frames frames = frames_of(a, b);
     std::vector<Row> rows;

@@ -25,9 +25,9 @@ std::vector<std::string> override_texts(const py::dict& overrides) {
     return texts;
 }
 
-Scene scene_of(SceneResult result, const std::vector<std::string>& overrides) {
+Scene scene_of(SceneResult result, const std::vector<std::string>& overrides, const std::string& folder = {}) {
     if (!result.scene) throw SceneFailure(std::move(result));
-    Scene scene{*result.scene, resolved_scene(result.text, overrides), {}};
+    Scene scene{*result.scene, resolved_scene(result.text, overrides, folder), {}, folder};
     for (const SceneError& warning : result.warnings) scene.warnings.push_back(warning.text());
     return scene;
 }
@@ -43,7 +43,8 @@ Scene parse(const py::object& source, const py::dict& overrides) {
 
 Scene load(const py::object& path, const py::dict& overrides) {
     const std::vector<std::string> texts = override_texts(overrides);
-    return scene_of(read_scene(py::cast<std::string>(py::module_::import("os").attr("fspath")(path)), texts), texts);
+    const std::string name = py::cast<std::string>(py::module_::import("os").attr("fspath")(path));
+    return scene_of(read_scene(name, texts), texts, scene_folder(name));
 }
 
 }  // namespace
@@ -55,9 +56,9 @@ Scene any_scene(const py::object& source) {
 
 Scene changed(const Scene& scene, const py::dict& overrides) {
     const std::vector<std::string> texts = override_texts(overrides);
-    SceneResult result = read_scene_text(scene.json, "scene", texts);
+    SceneResult result = read_scene_text(scene.json, "scene", texts, scene.folder);
     result.text = scene.json;
-    return scene_of(std::move(result), texts);
+    return scene_of(std::move(result), texts, scene.folder);
 }
 
 PictureView picture_view(const std::string& name, std::optional<double> range) {

@@ -18,6 +18,7 @@ struct Scene {
     SceneDescription description;
     std::string json;
     std::vector<std::string> warnings;
+    std::string folder;  ///< in which it looks for files that it names; empty: the working directory
 };
 
 /// Takes a Scene as it is, parses a dict, and loads a path.

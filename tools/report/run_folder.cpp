@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "input/png_picture.h"
 #include "output/json_file.h"
 #include "output/manifest.h"
 #include "output/png.h"

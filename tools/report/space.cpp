@@ -9,12 +9,12 @@
 #include <set>
 #include <utility>
 
-#include "compare/array_file.h"
 #include "drape/scene_reader.h"
+#include "input/array_file.h"
 #include "mesh/mesh_shape.h"
 #include "output/frame_writer.h"
 #include "output/json_text.h"
-#include "output/output_error.h"
+#include "base/output_error.h"
 #include "output/xml_text.h"
 #include "picture/collider_mesh.h"
 #include "picture/color_map.h"
@@ -26,7 +26,7 @@ namespace drape::report {
 
 namespace {
 
-using compare::Array;
+using input::Array;
 using Triangle = std::array<std::uint32_t, 3>;
 using Triangles = std::vector<Triangle>;
 
@@ -75,7 +75,7 @@ ClothArrays read_cloth_arrays(const std::filesystem::path& path) {
                name.starts_with("faces");
     };
     ClothArrays cloth;
-    const std::vector<Array> arrays = compare::load_arrays(path, is_wanted);
+    const std::vector<Array> arrays = input::load_arrays(path, is_wanted);
     const auto numbers = [&](const std::string& name, std::size_t dimensions) -> const Array& {
         const auto found = std::ranges::find(arrays, name, &Array::name);
         if (found == arrays.end() || !found->has_numbers() || found->shape.size() != dimensions)

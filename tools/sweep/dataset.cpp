@@ -7,9 +7,9 @@
 #include <optional>
 #include <regex>
 
+#include "base/output_error.h"
 #include "output/atomic_file.h"
 #include "output/json_text.h"
-#include "output/output_error.h"
 #include "run/run.h"
 
 namespace drape::sweep {

@@ -13,9 +13,9 @@
 #include <deque>
 #include <fstream>
 
+#include "base/output_error.h"
 #include "output/atomic_file.h"
 #include "output/file_descriptor.h"
-#include "output/output_error.h"
 #include "output/progress.h"
 
 namespace drape::sweep {

@@ -161,7 +161,9 @@ struct Cloth {
     std::array<std::uint32_t, 2> grid{2, 2};  ///< particles: columns, rows
     std::array<double, 2> size{1, 1};         ///< metres along columns, rows
     Placement placement;
-    double areal_density = 0.2;  ///< kg/m^2
+    /// m: where every particle starts, row by row. Empty: flat, as placed. Else `placement` has its defaults.
+    std::vector<Vec3> start;
+    double areal_density = 0.2;  ///< kg/m^2; where cells differ, of one with the factor 1
     Stiffness stiffness;
     double damping = 0.0;      ///< 1/s
     double friction = 0.3;     ///< Coulomb coefficient of the cloth's own side
@@ -170,6 +172,8 @@ struct Cloth {
     std::optional<SelfCollision> self_collision;  ///< nothing: the cloth passes through itself
     Vec3 velocity{0, 0, 0};                       ///< m/s
     std::vector<IndexBox> holes;                  ///< boxes of particle indices whose inner cells are missing
+    /// Factors of every cell, row by row; empty: 1. The stiffness is at most, the density at least what the cloth says.
+    std::vector<float> cell_stiffness, cell_density;
     std::vector<Pin> pins;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;
@@ -208,7 +212,7 @@ struct Capsule {
 /// A triangle mesh from a file: a solid body, or a shell. The scene reader reads the file; whoever fills this otherwise
 /// calls `read_file` (drape/scene_reader.h).
 struct Mesh {
-    std::string file;             ///< OBJ, PLY, STL or glTF; the reader makes it absolute
+    std::string file;             ///< OBJ, PLY, STL or glTF
     double scale = 1;             ///< m per unit of the file
     Vec3 position{0, 0, 0};       ///< m, where the file's origin is
     std::optional<double> shell;  ///< m: the thickness of a surface that is not closed

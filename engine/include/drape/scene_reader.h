@@ -30,8 +30,9 @@ struct SceneResult {
     std::optional<SceneDescription> scene;  ///< present exactly when `errors` is empty
     std::vector<SceneError> errors;         ///< in the order of the text, those of overrides last
     std::vector<SceneError> warnings;
-    std::string text;         ///< the file's text as read, without overrides: what is read is what is hashed
-    bool unreadable = false;  ///< the file could not be read at all: an I/O error, not a scene error
+    std::string text;                  ///< the file's text as read, without overrides: what is read is what is hashed
+    std::vector<std::string> files{};  ///< those that the scene takes shapes and maps from, as it names them
+    bool unreadable = false;           ///< the file could not be read at all: an I/O error, not a scene error
 };
 
 /// Thrown for a scene that cannot be run; holds all its errors.
@@ -54,10 +55,14 @@ inline constexpr std::uint64_t scene_particle_limit = 16'000'000;
 /// anything in the file or in an override.
 SceneResult read_scene(const std::string& path, std::span<const std::string> overrides = {});
 
-/// Reads a scene's text that is already in memory; `file_name` says where errors are. Files that a scene names are
-/// looked for beside it, or in the working directory where it is no file.
+/// Reads a scene's text that is already in memory; `file_name` only says where errors are. Files that the scene names
+/// are looked for in `folder`; empty: the working directory.
 SceneResult read_scene_text(std::string_view text, const std::string& file_name,
-                            std::span<const std::string> overrides = {});
+                            std::span<const std::string> overrides = {}, const std::string& folder = {});
+
+/// Returns the folder in which a scene file looks for files that it names: its own; that of a pipe is the working
+/// directory's, "".
+std::string scene_folder(const std::string& path);
 
 /// Reads a mesh's file. Throws an Error without a place.
 void read_file(Mesh& mesh);
@@ -66,11 +71,10 @@ void read_file(Mesh& mesh);
 SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides = {});
 SceneDescription parse_scene(std::string_view text);
 
-/// Returns the JSON of a scene that can be read, with its overrides applied, every missing key that has a published
-/// default written out and names of files made absolute, so that it says the same when defaults change. Throws
-/// SceneFailure.
+/// Returns the JSON of a scene that can be read, with its overrides applied and every missing key that has a published
+/// default written out, so that it says the same when defaults change. Throws SceneFailure.
 std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {},
-                           const std::string& file_name = "scene");
+                           const std::string& folder = {});
 
 /// Returns the published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
 std::string scene_schema();

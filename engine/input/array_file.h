@@ -1,4 +1,4 @@
-// Reads NumPy's files back.
+// Reads NumPy's files.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace drape::compare {
+namespace drape::input {
 
 struct Array {
     std::string name;  ///< in its archive; empty for an NPY file's
@@ -32,4 +32,10 @@ struct Array {
 std::vector<Array> load_arrays(const std::filesystem::path& path,
                                const std::function<bool(std::string_view)>& is_wanted = {});
 
-}  // namespace drape::compare
+/// Says of an array of numbers whose values are not read yet how many of the last ones are wanted; may throw.
+using WantedValues = std::function<std::uint64_t(const Array&)>;
+/// Returns the array of an NPY file, or the one of this name in an NPZ archive, with its last values alone. Throws
+/// OutputError naming the file, what `wanted` throws, and for values that are not numbers.
+Array load_array(const std::filesystem::path& path, std::string_view name, const WantedValues& wanted);
+
+}  // namespace drape::input

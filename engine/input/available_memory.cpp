@@ -1,4 +1,4 @@
-#include "output/available_memory.h"
+#include "input/available_memory.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "output/output_error.h"
+#include "base/output_error.h"
 
 namespace drape {
 

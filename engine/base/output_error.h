@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace drape {
 
@@ -13,6 +14,8 @@ class OutputError : public std::runtime_error {
 };
 
 // Returns "cannot <action> '<path>': <text of the errno value>".
-OutputError system_error_at(const std::string& action, const std::string& path, int errno_value);
+inline OutputError system_error_at(const std::string& action, const std::string& path, int errno_value) {
+    return OutputError("cannot " + action + " '" + path + "': " + std::generic_category().message(errno_value));
+}
 
 }  // namespace drape

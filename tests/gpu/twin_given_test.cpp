@@ -1,0 +1,108 @@
+// The twin follows cloth that starts in a given shape, and cloth of cells that differ, by every method and kernel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::compare;
+
+/// Gives a cloth a folded start: waves along its rows, the last third laid back over the middle one.
+void fold(Cloth& cloth) {
+    const auto [columns, rows] = cloth.grid;
+    const double dx = cloth.size[0] / (columns - 1), dy = cloth.size[1] / (rows - 1);
+    cloth.start.clear();
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t turn = 2 * columns / 3, along = column < turn ? column : 2 * turn - column;
+            const double height = column < turn ? 0 : 0.04 + 0.01 * std::sin(0.3 * row);
+            cloth.start.push_back(
+                {0.95 * dx * along - 0.5, height + 0.02 * std::sin(0.7 * row + 0.2 * column), 0.97 * dy * row - 0.4});
+        }
+    cloth.placement = {};
+}
+
+/// Gives a cloth's cells stiffnesses down to a tenth, and densities up to five times its own.
+void vary(Cloth& cloth) {
+    const std::size_t count = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1);
+    cloth.cell_stiffness.clear();
+    cloth.cell_density.clear();
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        cloth.cell_stiffness.push_back(0.1f + 0.9f * static_cast<float>(cell * 37 % 101) / 100.0f);
+        cloth.cell_density.push_back(1 + 4 * static_cast<float>(cell * 53 % 97) / 96.0f);
+    }
+}
+
+constexpr SolverMethod methods[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
+
+TEST(TwinGivenTest, AFoldedStart) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        scene.cloths[0].stiffness.bend = 1e-4;
+        fold(scene.cloths[0]);
+        compare(scene);
+    }
+}
+
+TEST(TwinGivenTest, AFoldedStartThatMeetsItself) {
+    SceneDescription scene = test::everything_in_lines();
+    fold(scene.cloths[0]);
+    scene.cloths[0].self_collision.emplace();
+    EXPECT_GT(compare(scene).most_pairs, 0u);
+}
+
+TEST(TwinGivenTest, StiffnessAndDensityByCell) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        scene.cloths[0].stiffness.bend = 1e-3;
+        scene.cloths[0].stiffness.compression = 0.3;
+        vary(scene.cloths[0]);
+        compare(scene);
+        if (method == SolverMethod::line) {
+            scene.colliders = {};  // of second order
+            compare(scene);
+        }
+    }
+}
+
+TEST(TwinGivenTest, StiffnessAndDensityByCellWithoutBendingInSeveralIterations) {
+    for (const SolverMethod method : {SolverMethod::relax, SolverMethod::line}) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        scene.solver.iterations = 2;
+        vary(scene.cloths[0]);
+        scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{25, 15}, {26, 16}}};
+        compare(scene);
+    }
+}
+
+/// Grids that fill tiles and strips.
+TEST(TwinGivenTest, StiffnessAndDensityByCellAlone) {
+    for (const SolverMethod method : methods)
+        for (const auto& grid : {std::pair{32u, 32u}, {49u, 25u}, {97u, 65u}}) {
+            SceneDescription scene = test::thrown_sheet(grid, 8);
+            scene.solver.method = method;
+            vary(scene.cloths[0]);
+            compare(scene);
+        }
+}
+
+TEST(TwinGivenTest, ClothsTogetherOfWhichEachHasItsOwnShape) {
+    SceneDescription scene = test::everything_in_lines();
+    vary(scene.cloths[0]);
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "second";
+    fold(scene.cloths[1]);
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[2].name = "third";
+    scene.cloths[2].cell_stiffness.assign(scene.cloths[2].cell_stiffness.size(), 0.5f);
+    compare(scene);
+}
+
+}  // namespace
+}  // namespace drape
