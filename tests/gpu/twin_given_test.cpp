@@ -81,14 +81,14 @@ TEST(TwinGivenTest, StiffnessAndDensityByCellWithoutBendingInSeveralIterations) 
     }
 }
 
-/// Grids that fill tiles and strips.
+/// Grids that fill tiles and strips; their statistics, too.
 TEST(TwinGivenTest, StiffnessAndDensityByCellAlone) {
     for (const SolverMethod method : methods)
-        for (const auto& grid : {std::pair{32u, 32u}, {49u, 25u}, {97u, 65u}}) {
+        for (const auto& grid : {std::pair{32u, 32u}, {49u, 25u}}) {
             SceneDescription scene = test::thrown_sheet(grid, 8);
             scene.solver.method = method;
             vary(scene.cloths[0]);
-            compare(scene);
+            compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = method == SolverMethod::relax});
         }
 }
 

@@ -93,6 +93,10 @@ class Scenes(unittest.TestCase):
             simulation.step()
             np.testing.assert_array_equal(simulation.positions(0), shape)
             self.assertEqual(len(simulation.faces(0)), 2 * (48 - 1))
+            np.savez_compressed(pathlib.Path(folder) / "packed.npz", positions=np.stack([2 * shape, shape]))
+            simulation = drape.Simulation(drape.load(path, {"/cloths/0/start": "packed.npz"}))
+            simulation.step()
+            np.testing.assert_array_equal(simulation.positions(0), shape)
             with self.assertRaises(drape.SceneError) as caught:  # a dict has no place
                 drape.parse(scene)
         self.assertIn("/cloths/0/start: cannot read 'shape.npy'", str(caught.exception))
