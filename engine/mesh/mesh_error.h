@@ -1,4 +1,4 @@
-// What is wrong with a mesh is told without a place; whoever asked for it knows that.
+// Errors of meshes are told without a place; whoever asked for the mesh knows it.
 #pragma once
 
 #include "drape/error.h"

@@ -65,7 +65,7 @@ TEST(TwinMeshTest, ClothThatMeetsItself) {
     EXPECT_GT(compare(scene).most_pairs, 20u) << "nothing met";
 }
 
-/// What is farther away than bounds say is left out, to the same bits.
+/// Colliders that bounds say are farther away are left out, to the same bits.
 TEST(TwinMeshTest, WithoutSkips) {
     ModelOptions all;
     all.skip = false;

@@ -41,6 +41,7 @@ struct TurnShape {
     void operator()(Box& box) const { turn(box.center), turn_extents(box.half_extents); }
     void operator()(Ellipsoid& ellipsoid) const { turn(ellipsoid.center), turn_extents(ellipsoid.radii); }
     void operator()(Capsule& capsule) const { turn(capsule.from), turn(capsule.to); }
+    void operator()(Mesh&) const { ADD_FAILURE() << "the triangles of a file are not turned"; }
 };
 
 /// Returns the same scene in a world with z up.

@@ -9,12 +9,12 @@
 #include <set>
 #include <utility>
 
+#include "base/output_error.h"
 #include "drape/scene_reader.h"
 #include "input/array_file.h"
 #include "mesh/mesh_shape.h"
 #include "output/frame_writer.h"
 #include "output/json_text.h"
-#include "base/output_error.h"
 #include "output/xml_text.h"
 #include "picture/collider_mesh.h"
 #include "picture/color_map.h"

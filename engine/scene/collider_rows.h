@@ -1,0 +1,126 @@
+// The rows of the scene format that are about colliders.
+#pragma once
+
+#include "scene/shared_rows.h"
+
+namespace drape::rows {
+
+/// Returns the keys of a collider of one shape: the shape's own, then those that every collider has.
+template <class Shape>
+std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
+    std::vector<Key<Collider>> keys;
+    for (const Key<Shape>& key : own)
+        keys.push_back(key.template within<Collider>(
+            [](Collider& collider) -> Shape& { return std::get<Shape>(collider.shape); }));
+    const Key<Collider> common[] = {
+        {"friction", &Collider::friction, number(not_negative),
+         "Coulomb coefficient of this side; a pair of surfaces uses the geometric mean."},
+        {"rotate", &Collider::rotate, vec3,
+         "Degrees, rest pose: Euler angles about x, then y, then z, about the collider's own centre (a plane's: normal "
+         "* offset, a mesh's: the middle of its bounding box)."},
+        {"path", &Collider::path, path,
+         "Rigid motion on top of the rest pose, rotating about the collider's own centre (a plane's: normal * offset), "
+         "which its translation takes along. Absent: at rest."},
+        {"color", &Collider::color, color, "sRGB, for pictures only."},
+    };
+    keys.insert(keys.end(), std::begin(common), std::end(common));
+    return keys;
+}
+
+inline const Object<Collider> plane{
+    "plane", "The cloth stays where normal . x >= offset, with the normal made unit length first.",
+    keys_of<Plane>({
+        {"normal", &Plane::normal, turned(direction),
+         "Points to the outside. Where z is up, the default is [0, 0, 1]."},
+        {"offset", &Plane::offset, number(any_number), "Metres from the origin along the unit normal."},
+    })};
+inline const Object<Collider> sphere{"sphere", "A solid ball.",
+                                     keys_of<Sphere>({
+                                         {"center", &Sphere::center, vec3, "Metres."},
+                                         {"radius", &Sphere::radius, number(positive), "Metres."},
+                                     })};
+inline const Object<Collider> box{"box", "A solid box.",
+                                  keys_of<Box>({
+                                      {"center", &Box::center, vec3, "Metres."},
+                                      {"half_extents", &Box::half_extents, extents, "Half the edge lengths, metres."},
+                                  })};
+inline const Object<Collider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
+                                        keys_of<Ellipsoid>({
+                                            {"center", &Ellipsoid::center, vec3, "Metres."},
+                                            {"radii", &Ellipsoid::radii, extents, "Half axes, metres."},
+                                        })};
+
+/// Reads one radius for both ends.
+inline Value<std::array<double, 2>> equal_radii() {
+    const Value<double> radius = number(positive);
+    return {radius.text,
+            [radius](const SceneNode& node, std::array<double, 2>& radii) {
+                if (!node || !radius.read(node, radii[0])) return !node;
+                radii[1] = radii[0];
+                return true;
+            },
+            [radius](const std::array<double, 2>& radii) { return radius.write(radii[0]); }};
+}
+
+inline const Object<Collider> capsule{
+    "capsule",
+    "A sphere swept along a segment: a rod with round ends. With two radii it tapers; one end inside the other leaves "
+    "the larger ball. Its centre is the segment's middle. At most one of radius and radii.",
+    keys_of<Capsule>({
+        {"from", &Capsule::from, vec3, "Metres: centre of one end."},
+        {"to", &Capsule::to, vec3, "Metres: centre of the other end."},
+        {"radius", &Capsule::radii, equal_radii(), "Metres."},
+        {"radii", &Capsule::radii, without_default(two_numbers(positive)), "Metres, at from and at to."},
+    }),
+    check_capsule, R"("not": {"required": ["radius", "radii"]})"};
+
+inline const Object<Collider> mesh{
+    "mesh",
+    "A triangle mesh from a file, OBJ, PLY, STL or glTF, of at most 4 million triangles and 256 MiB: the solid body "
+    "that "
+    "a closed surface bounds, parts that overlap being one, or a shell. Contact knows its distance at the points of a "
+    "lattice and interpolates between them. Its centre is the middle of its bounding box.",
+    keys_of<Mesh>({
+        {"file", &Mesh::file, text(), "A relative name is looked for as a cloth's start is.", "the name of a file"},
+        {"scale", &Mesh::scale, number(positive), "Metres per unit of the file."},
+        {"position", &Mesh::position, vec3, "Metres: where the file's origin is."},
+        {"shell", &Mesh::shell, optional(number(positive)),
+         "Metres: thickness of a surface that is not closed, half of it on either side."},
+        {"spacing", &Mesh::spacing, optional(number(positive)),
+         "Metres between the points of the lattice. Absent: half of the least distance of particles, or of the shell's "
+         "thickness, and more where that needs over 2 million points."},
+    }),
+    check_mesh};
+
+using Colliders = std::vector<Collider>;
+
+/// Returns the key of one shape's list; all lists are read into the scene's one, in the order of their rows.
+template <class Shape>
+Key<Colliders> colliders_of(const Object<Collider>& object, std::string_view help) {
+    const Value<Colliders> own =
+        list<Collider>(object, "an array of at most 1024 colliders", 0, 1024, Collider{Shape{}});
+    Key<Colliders> key(
+        collider_lists[ColliderShape(Shape{}).index()], own.text,
+        [own](const SceneNode& node, Colliders& all) {
+            Colliders read;
+            const bool fits = own.read(node, read);
+            all.insert(all.end(), read.begin(), read.end());
+            return fits;
+        },
+        help);
+    key.text.default_value = own.write({});
+    return key;
+}
+
+inline const Object<Colliders> colliders{"colliders",
+                                         "Solid bodies the cloth stays outside of.",
+                                         {
+                                             colliders_of<Plane>(plane, "Half-spaces."),
+                                             colliders_of<Sphere>(sphere, "Spheres."),
+                                             colliders_of<Box>(box, "Boxes."),
+                                             colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."),
+                                             colliders_of<Capsule>(capsule, "Capsules."),
+                                             colliders_of<Mesh>(mesh, "Triangle meshes."),
+                                         }};
+
+}  // namespace drape::rows
