@@ -27,18 +27,19 @@ std::array<std::uint32_t, 3> size_of(const MeshShape& shape, double spacing, dou
 
 DistanceField made(const MeshShape& shape, double spacing, double margin) {
     DistanceField field{{}, spacing, size_of(shape, spacing, margin), {}};
-    const auto& [columns, rows, layers] = field.size;
+    const std::size_t columns = field.size[0], rows = field.size[1], layers = field.size[2];
     for (std::size_t axis = 0; axis < 3; ++axis) field.lower[axis] = -0.5 * spacing * (field.size[axis] - 1);
-    field.samples.resize(std::size_t{columns} * rows * layers);
-    std::atomic<std::uint32_t> next = 0;
+    field.samples.resize(columns * rows * layers);
+    std::atomic<std::size_t> next = 0;
     const auto work = [&] {
         std::vector<double> row(columns);
-        for (std::uint32_t z = next++; z < layers; z = next++)
-            for (std::uint32_t y = 0; y < rows; ++y) {
-                shape.distances({field.lower[0], field.lower[1] + y * spacing, field.lower[2] + z * spacing}, spacing,
-                                exact_within(spacing, margin), row);
-                float* const samples = field.samples.data() + (std::size_t{z} * rows + y) * columns;
-                for (std::uint32_t x = 0; x < columns; ++x) samples[x] = static_cast<float>(row[x]);
+        for (std::size_t z = next++; z < layers; z = next++)
+            for (std::size_t y = 0; y < rows; ++y) {
+                shape.distances({field.lower[0], field.lower[1] + static_cast<double>(y) * spacing,
+                                 field.lower[2] + static_cast<double>(z) * spacing},
+                                spacing, exact_within(spacing, margin), row);
+                float* const samples = field.samples.data() + (z * rows + y) * columns;
+                for (std::size_t x = 0; x < columns; ++x) samples[x] = static_cast<float>(row[x]);
             }
     };
     std::vector<std::jthread> threads;

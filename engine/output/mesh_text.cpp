@@ -26,6 +26,12 @@ std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
 }
 
 void MeshSequence::add(const WrittenFrame& frame) {
+    // Cuts are told of as they are found, when frames before them may still wait for their pictures.
+    std::erase_if(changes_, [&](Change& change) {
+        const bool due = change.frame <= frame.number;
+        if (due) run_.cloths[change.cloth].faces = std::move(change.faces);
+        return due;
+    });
     for (std::size_t i = 0; i < run_.cloths.size(); ++i) {
         const WrittenCloth& cloth = run_.cloths[i];
         WrittenMesh mesh{frame.positions[i], {}, {}};
@@ -36,8 +42,8 @@ void MeshSequence::add(const WrittenFrame& frame) {
     }
 }
 
-void MeshSequence::set_faces(std::uint32_t, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
-    run_.cloths[cloth].faces = faces;
+void MeshSequence::set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
+    changes_.push_back({frame, cloth, faces});
 }
 
 }  // namespace drape

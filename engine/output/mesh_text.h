@@ -35,7 +35,15 @@ class MeshSequence : public FrameWriter {
 
   private:
     OutputFolder& folder_;
-    WrittenRun run_;  ///< has the faces as they are now
+    /// Faces that a cloth has from a frame on, which was not added yet.
+    struct Change {
+        std::uint32_t frame;
+        std::size_t cloth;
+        std::vector<std::uint32_t> faces;
+    };
+
+    WrittenRun run_;               ///< has the faces of the frame that was added last
+    std::vector<Change> changes_;  ///< in the order of their frames
     std::string extension_;
     MeshText text_;
     std::vector<FileRecord> files_;

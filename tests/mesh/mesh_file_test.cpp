@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const Vec3 half{0.3, 0.2, 0.5};
 
 std::string file_with(const std::string& name, const std::string& bytes) {
-    const std::string path = (fs::path(testing::TempDir()) / name).string();
+    std::string path = (fs::path(testing::TempDir()) / name).string();
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
 }

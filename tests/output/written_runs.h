@@ -49,12 +49,13 @@ inline std::vector<std::uint8_t> picture_of(std::uint32_t frame) {
     return rgba;
 }
 
-/// Writes `frames` frames of the run, with the cut. Velocities are the positions of the frame after, contacts the
-/// particles' numbers less 1; only the second frame has an error.
+/// Writes `frames` frames of the run, with the cut, of which a run may tell before the frames that come before it.
+/// Velocities are the positions of the frame after, contacts the particles' numbers less 1; only the second frame has
+/// an error.
 inline std::vector<FileRecord> write(FrameWriter& writer, std::uint32_t frames = 3, bool finish = true) {
     const WrittenRun run = two_cloths();
+    writer.set_faces(12, 0, cut_flag);
     for (std::uint32_t frame = run.start; frame < run.start + frames * run.step; frame += run.step) {
-        if (frame == 12) writer.set_faces(12, 0, cut_flag);
         std::vector<std::vector<float>> xyzw, velocities;
         std::vector<std::vector<std::int16_t>> contacts;
         for (const WrittenCloth& cloth : run.cloths) {

@@ -65,11 +65,11 @@ inline Triangles torus_mesh(double ring, double tube, std::uint32_t columns) {
 /// A capsule along y, its ends' centres at -half and half. With an even number of rows its equator is a row of the one
 /// ball and the next one of the other.
 inline Triangles capsule_mesh(double half, double radius, std::uint32_t columns) {
-    const std::uint32_t rows = columns / 2 + 1;
+    const std::uint32_t half_around = columns / 2, rows = half_around + 1;
     return around(columns, rows, true, [=](double u, double v) {
         const auto row = static_cast<std::uint32_t>(std::lround(v * rows));
         const bool upper = row <= columns / 4;
-        Vec3 point = on_ball(radius, u, double(upper ? row : row - 1) / (columns / 2));
+        Vec3 point = on_ball(radius, u, double(upper ? row : row - 1) / half_around);
         point[1] += upper ? half : -half;
         return point;
     });
