@@ -3,32 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "drape/error.h"
-#include "scene/contact_shape.h"
+#include "scene/field_plan.h"
 #include "scene/overlap.h"
 
 namespace drape {
 
 namespace {
-
-/// Returns half of the least distance of particles of the scene's cloths, m.
-double half_cell(const SceneDescription& scene) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Cloth& cloth : scene.cloths)
-        for (std::size_t axis = 0; axis < 2; ++axis)
-            least = std::min(least, 0.5 * cloth.size[axis] / (cloth.grid[axis] - 1));
-    return least;
-}
-
-/// Returns how far from a mesh contact looks, m.
-double margin_of(const SceneDescription& scene, const Collider& collider) {
-    double margin = 0;
-    for (const Cloth& cloth : scene.cloths)
-        margin = std::max(margin, cloth.thickness + std::get<Mesh>(contact_shape(cloth, collider).shape).grown);
-    return margin;
-}
 
 void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
     const auto at = [](double x) { return static_cast<float>(x); };
@@ -56,20 +38,15 @@ MeshFields::MeshFields(const SceneDescription& scene) {
         const Mesh* mesh = std::get_if<Mesh>(&scene.colliders[k].shape);
         if (!mesh) continue;
         if (!mesh->shape) throw Error("a mesh among the colliders was not read (read_file of drape/scene_reader.h)");
-        const double margin = margin_of(scene, scene.colliders[k]);
-        double wanted = mesh->spacing.value_or(half_cell(scene));
-        if (mesh->shell && !mesh->spacing) wanted = std::min(wanted, 0.5 * *mesh->shell);
-        const double spacing = mesh->spacing ? wanted : field_spacing(*mesh->shape, wanted, margin, usual_field_points);
-        points += field_points(*mesh->shape, spacing, margin);
+        const FieldPlan plan = field_plan(scene, scene.colliders[k]);
+        points += plan.points;
         if (points > most_field_points)
-            throw Error(
-                fmt::format("the fields of distances to the scene's meshes need {} points up to {}, and have room "
-                            "for {}: give a larger \"spacing\" than {:.3g} m",
-                            points, mesh->file, most_field_points, spacing));
-        const std::shared_ptr<const DistanceField> field = distance_field(mesh->shape, spacing, margin);
+            throw Error(fmt::format("the distances to the scene's meshes need {} points up to {}, and have room for {}",
+                                    points, mesh->file, most_field_points));
+        const std::shared_ptr<const DistanceField> field = distance_field(mesh->shape, plan.spacing, plan.margin);
         first_.resize(k + 1);
         first_[k] = texels.size();
-        spacings_.push_back({k, wanted, spacing, 2 * mesh->shape->inner_radius()});
+        spacings_.push_back({k, plan.wanted, plan.spacing, 2 * mesh->shape->inner_radius()});
         append(*field, texels);
     }
     if (!texels.empty()) texels_ = std::make_shared<const std::vector<glsl::vec4>>(std::move(texels));

@@ -312,6 +312,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
         members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
     if (!cloths_meet(scene)) warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
+    if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
     warn_of_doubts(members, scene);

@@ -56,6 +56,8 @@ bool check_placement(const Members& members, Placement& placement);
 bool check_pin(const Members& members, Pin& pin);
 /// Checks a cloth, and finds the particles of its pins' edges and corners.
 bool check_cloth(const Members& members, Cloth& cloth);
+/// Checks that there is room for the distances to all meshes.
+bool check_fields(const SceneNode& colliders, const SceneDescription& scene);
 /// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.

@@ -237,7 +237,9 @@ TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
         {"/solver/method=\"auto\"", "/solver/tolerance_motion=1"},
         {"/cloths/0/self_collision={}"},
         {"/cutters=[{\"triangle\": [[-1, 0.7, -1], [1, 0.7, -1], [0, 0.7, 2]], \"active\": [0.02, 0.05]}]"},
-        {"/solver/estimate_error=true"}};
+        {"/solver/estimate_error=true"},
+        {"/colliders/meshes=[{\"file\": \"" DRAPE_SOURCE_DIR
+         "/tests/scene/box.obj\", \"scale\": 0.3, \"position\": [-0.3, 0.6, 0.1]}]"}};
     // On a GPU such small cloth does all of its iterations, and shares them.
     if (library_device().info().type == "cpu")
         kinds.push_back({"/solver/method=\"relax\"", "/solver/iterations=4", "/solver/tolerance=0.2"});

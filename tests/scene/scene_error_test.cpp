@@ -391,6 +391,12 @@ const Malformed collider_cases[] = {
       "3:10: /colliders/meshes/2/file: cannot read /there/is/no.obj: No such file or directory",
       "3:58: /colliders/meshes/3/scale: expected a number > 0 (single precision), got 0",
       "3:71: /colliders/meshes/4/file: cannot read /dev/null: it is not a file"}},
+    {"FieldsOfMeshes",
+     scene("\"colliders\": {\"meshes\": [{\"file\": \"" DRAPE_SOURCE_DIR
+           "/tests/scene/box.obj\", \"position\": [0, 9, 0]},\n"
+           "{\"spacing\": 0.001, \"position\": [0, 9, 9], \"file\": \"" DRAPE_SOURCE_DIR "/tests/scene/box.obj\"}]}"),
+     {"3:13: /colliders/meshes/1/spacing: expected distances to all meshes at no more than 8388608 points, got "
+      "8601896583 up to this one, which has a spacing of 0.001 m"}},
     {"Common",
      scene("\"colliders\": {\"planes\": {}, \"boxes\": [{\"friction\": -1, \"color\": \"red\", \"rotate\": "
            "90}]}"),
