@@ -286,7 +286,9 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
 /// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known, and a mesh may be as thin
 /// as it likes somewhere.
 SHARED float least_half_width(int kind, vec3 size) {
+#ifdef MESHES
     if (kind == kind_mesh) return 0.0f;
+#endif
     float ends = size.y < size.z ? size.y : size.z;
     float least = size.x < ends ? size.x : ends;
     return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;

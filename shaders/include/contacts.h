@@ -20,12 +20,14 @@ layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texe
 const int collider_texel_count = 8, collider_shape_texel = 6, collider_motion_texel = 7;  // texels of a record
 
 int kind_of_collider(int i) {
+#ifdef MESHES
+    if (i >= capsules_end) return kind_mesh;
+#endif
     return i < planes_end       ? kind_plane
            : i < spheres_end    ? kind_sphere
            : i < boxes_end      ? kind_box
            : i < ellipsoids_end ? kind_ellipsoid
-           : i < capsules_end   ? kind_capsule
-                                : kind_mesh;
+                                : kind_capsule;
 }
 
 /// Ball about collider i, counted from `first`, that holds where a particle ends that meets it: centre and radius, m,
@@ -36,10 +38,12 @@ vec4 collider_ball(int first, int i, float length, float thickness) {
     float motion = imageLoad(collider_texels, texel + collider_motion_texel).w;
     float reach = length < 0.0f ? thickness : way_reach(kind, size, length, motion, thickness);
     precise float radius = bounding_radius(kind, size) + (reach - thickness);
+#ifdef MESHES
     if (kind == kind_mesh) {
         precise float grown = radius + imageLoad(collider_texels, texel + collider_motion_texel).y;
         radius = grown;
     }
+#endif
     return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
                 imageLoad(collider_texels, texel + 2).w, radius);
 }
