@@ -146,7 +146,7 @@ std::string collider_shape(Dice& dice, std::uint32_t kind) {
 }
 
 std::string colliders(Dice& dice, double seconds) {
-    std::array<std::vector<std::string>, std::size(collider_lists)> lists;
+    std::array<std::vector<std::string>, std::size(collider_lists) - 1> lists;  // all but meshes, which are files
     for (std::uint32_t k = dice.chance(0.5) ? 1 + dice.below(3) : 0; k > 0; --k) {
         const std::uint32_t kind = dice.below(static_cast<std::uint32_t>(lists.size()));
         std::string text = collider_shape(dice, kind);

@@ -31,10 +31,11 @@ bool is_driver_rounded(std::uint32_t opcode) {
            opcode == SpvOpVectorTimesMatrix || opcode == SpvOpMatrixTimesMatrix || opcode == SpvOpOuterProduct;
 }
 
-/// Functions of GLSL.std.450 are exact if they are IEEE roots and signs, or functions of integers.
+/// Functions of GLSL.std.450 are exact if they are IEEE roots and signs, whole parts, which Vulkan has correctly
+/// rounded (appendix "Precision and Operation of SPIR-V Instructions"), or functions of integers.
 bool is_exact(std::uint32_t function) {
-    constexpr GLSLstd450 exact[] = {GLSLstd450Sqrt, GLSLstd450FAbs, GLSLstd450UMin,    GLSLstd450SMin,
-                                    GLSLstd450UMax, GLSLstd450SMax, GLSLstd450FindILsb};
+    constexpr GLSLstd450 exact[] = {GLSLstd450Sqrt, GLSLstd450FAbs, GLSLstd450Floor, GLSLstd450UMin,
+                                    GLSLstd450SMin, GLSLstd450UMax, GLSLstd450SMax,  GLSLstd450FindILsb};
     return std::ranges::find(exact, function) != std::end(exact);
 }
 
