@@ -70,14 +70,15 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
 }
 
 Difference solver_difference(const SolverSettings& first, const SolverSettings& other) {
-    for (const Difference& found : {differ("/solver/method", named(first.method).name, named(other.method).name),
-                                    differ("/solver/substeps", first.substeps, other.substeps),
-                                    differ("/solver/iterations", first.iterations, other.iterations),
-                                    differ("/solver/tolerance", first.tolerance, other.tolerance),
-                                    differ("/solver/collide", spelling(collide_spellings, first.collide),
-                                           spelling(collide_spellings, other.collide)),
-                                    differ("/solver/tethers", first.tethers, other.tethers),
-                                    differ("/solver/estimate_error", first.estimate_error, other.estimate_error)})
+    for (const Difference& found :
+         {differ("/solver/method", named(first.method).name, named(other.method).name),
+          differ("/solver/substeps", first.substeps, other.substeps),
+          differ("/solver/iterations", first.iterations, other.iterations),
+          differ("/solver/tolerance", first.tolerance, other.tolerance),
+          differ("/solver/collide", spelling(collide_spellings, first.collide),
+                 spelling(collide_spellings, other.collide)),
+          differ("/solver/tethers", first.tethers, other.tethers),
+          differ("/solver/estimate_error", first.estimate_error.value_or(false), other.estimate_error.value_or(false))})
         if (found) return found;
     return std::nullopt;
 }
@@ -109,7 +110,7 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
 std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     if (model.asked_method == SolverMethod::automatic)
         return "method auto gives each member substeps of its own: name the method that it chooses";
-    if (model.scene.solver.estimate_error) return "companion runs estimate the error of each member";
+    if (model.has_companions()) return "companion runs estimate the error of each member";
     if (model.self_contact) return "contact between cloths works on all cloths of a scene at once";
     if (!model.scene.cutters.empty()) return "cuts make the members' cloths differ";
     if (!model.mesh_fields.empty()) return "distances to meshes are known as far as each member's contact asks";

@@ -147,7 +147,9 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
     if (!has_companions())
         all.push_back(
             {"companion runs",
-             "the position error of a method that is named is estimated where solver.estimate_error says so"});
+             closed_loop() ? "solver.estimate_error is false"
+                           : "the position error of a method that is named is estimated where solver.estimate_error "
+                             "says so"});
     else if (companions(scene.solver.substeps).coarser == 0)
         all.push_back({"the coarser companion run", "one companion, with more substeps, tells the error"});
     for (const ClothModel& cloth : cloths) {

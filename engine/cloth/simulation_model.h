@@ -48,7 +48,9 @@ struct SimulationModel {
     /// Returns whether frames are judged and done again with other substeps where they fail (cloth/substep_control.h).
     bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
     /// Returns whether the position error is estimated (cloth/motion_error.h).
-    bool has_companions() const { return closed_loop() || scene.solver.estimate_error; }
+    bool has_companions() const { return scene.solver.estimate_error.value_or(closed_loop()); }
+    /// Returns whether states are held against each other, or change their substeps.
+    bool compares_states() const { return closed_loop() || has_companions(); }
     Companions companions(std::uint32_t substeps) const;
     /// A closed loop keeps these largest stretch errors: the scene's, or the defaults.
     struct StretchLimits {

@@ -22,7 +22,7 @@ double substep_ms(const Method& method, const SceneDescription& scene, const Clo
     if (has_weather(scene)) cost += costs.wind;
     if (const auto count = static_cast<double>(scene.colliders.size()); count > 0)
         cost += {costs.colliders.ms, count * costs.colliders.particle_ns};
-    if (meets_box_edges(cloth, scene.colliders)) cost += costs.box_edges;
+    if (meets_edges(cloth, scene.colliders)) cost += costs.collider_edges;
     return cost.ms + static_cast<double>(cloth.grid[0]) * cloth.grid[1] * cost.particle_ns * 1e-6;
 }
 
@@ -75,7 +75,8 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
         0, method.trust != Method::Trust::none && std::max<double>(substeps, least) <= method.most_substeps};
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
-    const Companions with = companions_of(method, result.substeps);
+    const bool has_companions = scene.solver.estimate_error.value_or(true);
+    const Companions with = has_companions ? companions_of(method, result.substeps) : Companions{};
     for (const Cloth& cloth : scene.cloths)
         result.predicted_ms +=
             (result.substeps + with.companion + with.coarser) * substep_ms(method, scene, cloth, device);

@@ -37,6 +37,9 @@ struct Segment {
     bool operator==(const Segment&) const = default;
 };
 
+/// The share that a run without companions tells (SubstepControl::accumulated).
+inline constexpr double unknown_share = std::numeric_limits<double>::quiet_NaN();
+
 class SubstepControl {
   public:
     /// It begins with `proposed` substeps, never has fewer than `least`; a probe has `probe_length` frames, 2 or more.
@@ -60,7 +63,7 @@ class SubstepControl {
     void keep_anyway();
     /// Tells how much of what its limit allows the motion's error has come to since the start, after a segment is kept
     /// (cloth/motion_error.h); 0 where that is the motion's own doing. Far from the limit there are fewer probes, and
-    /// methods that have none take more substeps near it.
+    /// methods that have none take more substeps near it. `unknown_share` is neither far nor near.
     void accumulated(double share);
 
     /// Hands everything that changes, between segments, to `archive(members...)`, which writes or reads it

@@ -91,6 +91,7 @@ void TwinLoop::follow(Beside& beside, std::uint32_t substeps) {
 }
 
 void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
+    if (!model_.has_companions()) return control_.accumulated(unknown_share);
     if (sensitivity_.is_sensitive()) return note_motion(position_error_, sensitivity_, effort);
     const Segment& segment = control_.segment();
     const std::uint32_t last = next_ + segment.frame_count - 1;

@@ -284,10 +284,11 @@ const Object<SolverSettings> solver{
          "estimated by running some frames with half the substeps too. 0: 0.02 of the cloth's longer side a second, "
          "and for cloth of less than a metre 0.02 m/s times the root of its "
          "side in metres."},
-        {"estimate_error", &SolverSettings::estimate_error, boolean(),
-         "Whether the position error of a method that is named is estimated, by companion runs with a quarter and an "
-         "eighth of the substeps (explicit: half as many more): position_error_m in the manifest. Method auto always "
-         "does."},
+        {"estimate_error", &SolverSettings::estimate_error, optional(boolean()),
+         "Whether the position error is estimated, by companion runs with a quarter and an eighth of the substeps "
+         "(explicit: half as many more): position_error_m in the manifest. Left out: method auto does, methods that "
+         "are named do not. false with auto: limits are kept all the same, at less cost, but no error of positions is "
+         "stated, and chaos is not told from error."},
         {"tethers", &SolverSettings::tethers, boolean(),
          "Whether every particle is kept within the cloth's reach of the nearest particle of each of the two nearest "
          "pins (long-range attachments), once per substep. It keeps cloth that hangs from few points in shape at few "

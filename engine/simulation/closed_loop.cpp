@@ -23,7 +23,8 @@ std::vector<AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
     if (!is_run || closed) steps.push_back(change_substep);
     // Lists of contact may be too short.
     if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
-    if (is_run && closed) steps.insert(steps.end(), {remember, compare, disturb, compare_disturbed});
+    if (is_run && closed) steps.insert(steps.end(), {remember, compare});
+    if (is_run && has_set(StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed});
     if (is_run && model_.has_companions()) steps.push_back(compare_companion);
     if (is_run && has_set(StateSet::coarser)) steps.push_back(compare_coarser);
     return steps;

@@ -73,6 +73,7 @@ std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finish
 }
 
 void FrameLoop::follow_segment(std::uint32_t frame, bool predictable, const Finished& finished) {
+    if (!model_.has_companions()) return control_->accumulated(unknown_share);
     if (sensitivity_.is_sensitive()) return;  // there is no error that could be told
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;

@@ -194,7 +194,7 @@ class FrameLoop {
     /// Returns the steps that the loop takes in a set.
     std::vector<AttemptStep> attempt_steps(StateSet set) const;
     bool has_set(StateSet set) const {
-        if (set == StateSet::disturbed) return model_.closed_loop();
+        if (set == StateSet::disturbed && !model_.closed_loop()) return false;
         if (set == StateSet::coarser && model_.companions(state_substeps_).coarser == 0) return false;
         return model_.has_companions();
     }

@@ -128,7 +128,7 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     if (model_.windy)
         inputs_.wind = graph.buffer<glsl::vec4>(
             "wind", model_.member_count * model_.most_substeps() * (model_.weighs ? 2 : 1), Lifetime::host_input);
-    if (model_.has_companions())
+    if (model_.compares_states())
         inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
         inputs_.colliders = graph.buffer({.name = "colliders",

@@ -126,6 +126,20 @@ TEST(ClosedLoop, WithEverythingThatASceneMayHave) {
     EXPECT_GT(most_attempts(compare_loops(scene)), 1u);
 }
 
+/// Limits are kept as far as probes tell, no error of positions is stated.
+TEST(ClosedLoop, WithoutRunsBesideTheRun) {
+    SceneDescription scene = hanging_by_corners(20);
+    scene.solver.tolerance_motion = 0.02;
+    scene.solver.estimate_error = false;
+    const Seen seen = compare_loops(scene);
+    EXPECT_GT(most_attempts(seen), 1u);
+    for (const FrameEffort& effort : seen.efforts) {
+        EXPECT_TRUE(std::isnan(effort.position_error));
+        EXPECT_FALSE(effort.sensitive);
+        EXPECT_FALSE(effort.predictable && effort.motion_error > 0.02) << "it is NaN where no probe was";
+    }
+}
+
 TEST(ClosedLoop, InWeatherThatChanges) {
     SceneDescription scene = hanging_by_corners(20);
     scene.gravity_keys = {{0, {0, -9.81, 0}}, {0.15, {8, 0, 2}}};

@@ -269,8 +269,8 @@ struct SolverSettings {
     /// Method `auto` keeps the largest stretch error of a spring (0: solver_choice.h's limit) and the largest error of
     /// the motion, in m per second of simulated time (0: a share of the cloth's size).
     double tolerance_worst = 0, tolerance_motion = 0;
-    /// Companion runs estimate the position error of a method that is named, too (`auto` always has them).
-    bool estimate_error = false;
+    /// Whether companion runs estimate the position error. Left out: those of method `auto` do, of named ones not.
+    std::optional<bool> estimate_error;
     CollideWhen collide = CollideWhen::iteration;
     bool tethers = false;         ///< no particle gets farther from where the cloth is held than the cloth reaches
     double strain_damping = 0.2;  ///< method `explicit`: damping of a spring's strain rate over its stiffness times h
