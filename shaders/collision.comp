@@ -1,6 +1,6 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
 // the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
-// has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what box_edges.comp left. SUPPORTING
+// has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what collider_edges.comp left. SUPPORTING
 // keeps the surfaces that particles lie on, for contact between cloths. AFTER_IMPULSES does that too, and goes on from
 // what contact between cloths has made of the displacements on their sheet; it leaves them there as well. MESHES has
 // triangle meshes among the colliders.
@@ -83,7 +83,7 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
 #endif
 }
 
-/// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a box led it:
+/// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a collider led it:
 /// above 0 if one did.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
 #ifdef LED
@@ -179,7 +179,7 @@ bool meet_all(ivec2 texel, bool follows) {
 #ifdef AFTER_IMPULSES
     touches = grip.xyz;  // the next substep starts where this one leaves the particle
 #endif
-    if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a box led it
+    if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a collider led it
         imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
         imageStore(support_grip, placed(texel), grip);
     }

@@ -66,10 +66,10 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
                  grid.size(),
                  0,
                  0};
-    if (meets_box_edges(cloth, scene.colliders)) edge_reach = static_cast<float>(2 * covering_radius(cloth));
+    if (meets_edges(cloth, scene.colliders)) edge_reach = static_cast<float>(drape::edge_reach(cloth));
 }
 
-glsl::CollisionPush ClothModel::box_edges() const {
+glsl::CollisionPush ClothModel::collider_edges() const {
     glsl::CollisionPush push = collision;
     push.contact.x = edge_reach;
     return push;

@@ -30,8 +30,9 @@ struct ClothModel : ClothGeometry {
 
     double substep_length;  ///< s
     bool touches;           ///< something can touch it: a collider, or cloth
-    /// An edge of the cloth is at most so long, m, where it can meet that of a box (shaders/box_edges.comp). 0: the
-    /// scene has no box, the cloth's contact is of particles, or its thickness keeps everything clear.
+    /// An edge of the cloth is at most so long, m, where it can meet that of a box or a mesh
+    /// (shaders/collider_edges.comp). 0: the scene has neither, the cloth's contact is of particles, or its thickness
+    /// keeps everything clear.
     float edge_reach = 0;
     std::size_t member = 0;         ///< number of its scene among those of the model
     std::size_t collider_list = 0;  ///< its particles are kept from this list of SimulationModel::kept_colliders
@@ -40,7 +41,7 @@ struct ClothModel : ClothGeometry {
     glsl::CollisionPush collision;  ///< first is set per substep
     glsl::ResidualPush residual;    ///< constants of the check between iterations
     /// Returns `collision` with the reach of edges for the thickness.
-    glsl::CollisionPush box_edges() const;
+    glsl::CollisionPush collider_edges() const;
 
     /// Returns the displacement of every particle at the start, 0 where pinned, row by row.
     std::vector<glsl::vec4> start_displacement() const;

@@ -25,7 +25,7 @@ bool gathers(Context c) { return c.cloth.scheme.spare_state; }
 bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; }
 bool second_order(Context c) { return c.cloth.scheme.second_order; }
 bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
-bool judged(Context c) { return c.needs.statistics || c.model.has_companions(); }
+bool judged(Context c) { return c.needs.statistics || c.model.compares_states(); }
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
@@ -53,7 +53,7 @@ FieldExtent iteration_list(Context) { return {glsl::iteration_size_count + 1}; }
 std::vector<std::byte> start_excess(Context c) { return bytes_of_list(c.cloth.start_excess()); }
 std::vector<std::byte> share_of_mass(Context c) { return bytes_of_list(mass_shares(c.cloth)); }
 bool meets_on_colliders(Context c) { return c.model.self_contact && !c.model.scene.colliders.empty(); }
-bool cut_by_boxes(Context c) { return c.cloth.edge_reach > 0; }
+bool cut_by_edges(Context c) { return c.cloth.edge_reach > 0; }
 std::vector<std::byte> cell_bits(Context c) { return bytes_of_list(c.topology.grid().cells()); }
 std::vector<std::byte> reference(Context c) { return bytes_of_list(std::vector{statistics_reference(c.cloth)}); }
 
@@ -95,8 +95,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},
         {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
-        {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_boxes, particles},
-        {Field::lifted, "lifted", stored, vector, frame, cut_by_boxes, particles},
+        {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},
+        {Field::lifted, "lifted", stored, vector, frame, cut_by_edges, particles},
         {Field::support, "support", image, vector, state, meets_on_colliders, particles},
         {Field::support_grip, "support grip", image, vector, state, meets_on_colliders, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},

@@ -11,7 +11,7 @@ constexpr DeviceCosts cpu{.line = {0.7, 200},
                           .explicit_steps = {0.07, 60},
                           .relax = {0.77, 140},
                           .wind = {0.07, 64},
-                          .box_edges = {0.14, 48},
+                          .collider_edges = {0.14, 48},
                           .colliders = {0.07, 27},
                           .nested_boxes = true};
 /// An H200, driver 580.159, 27 November 2026. Explicit steps are those of tiles of 16x16.
@@ -19,7 +19,7 @@ constexpr DeviceCosts gpu{.line = {0.022, 0.45},
                           .explicit_steps = {0.0025, 0.043},
                           .relax = {0.0105, 0.17},
                           .wind = {0.003, 0.05},
-                          .box_edges = {0.006, 0.1},
+                          .collider_edges = {0.006, 0.1},
                           .colliders = {0.003, 0.02},
                           .nested_boxes = false};
 

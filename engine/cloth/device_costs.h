@@ -24,7 +24,7 @@ struct SubstepCost {
 
 struct DeviceCosts {
     SubstepCost line, explicit_steps, relax;  ///< by method, bare
-    SubstepCost wind, box_edges;              ///< what these add to any
+    SubstepCost wind, collider_edges;         ///< what these add to any
     SubstepCost colliders;                    ///< what they add to any: the time for each particle times their number
     /// Boxes around lone pins are relaxed again and again by a workgroup each (cloth/nested_boxes.h); where this is
     /// false, more substeps are cheaper.

@@ -61,9 +61,9 @@ class Substep {
     /// `ends`: nothing moves the particles any more in this substep.
     Step& collide(std::uint32_t iteration, bool ends) {
         const bool edges = ends && cloth_.edge_reach > 0;
-        if (edges) add(StepKind::box_edges, iteration);
+        if (edges) add(StepKind::collider_edges, iteration);
         // Led off one triangle, a corner may be past its neighbour.
-        if (edges) add(StepKind::box_edges, iteration).after_edges = true;
+        if (edges) add(StepKind::collider_edges, iteration).after_edges = true;
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         step.supporting = model_.self_contact.has_value();

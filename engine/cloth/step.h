@@ -33,7 +33,7 @@ enum class StepKind {
     line,
     nested,
     tether,
-    box_edges,
+    collider_edges,
     collide,
     residual,
     decide,
@@ -85,7 +85,7 @@ struct Step {
     std::uint32_t count = 1;
     /// It runs only when the decision before it was that the tolerance is not met; the device decides.
     bool conditional = false;
-    /// A collision, or a second `box_edges`, goes on from what `box_edges` left.
+    /// A collision, or a second `collider_edges`, goes on from what `collider_edges` left.
     bool after_edges = false;
     /// A collision keeps the surfaces that particles lie on.
     bool supporting = false;

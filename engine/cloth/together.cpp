@@ -79,7 +79,7 @@ bool in_images(const Step& step) {
         case StepKind::line:
         case StepKind::nested:
         case StepKind::tether:
-        case StepKind::box_edges:
+        case StepKind::collider_edges:
         case StepKind::collide:
             return true;
         default:

@@ -129,7 +129,7 @@ struct Manifest {
     std::vector<Compromise> compromises;
     std::vector<std::string> warnings;  // the texts that were told, compromises among them
     std::optional<SelfCollision> self_collision;
-    std::vector<SplitTriangles> off_box_edges;  // edges of boxes are not kept off these; the earliest first
+    std::vector<SplitTriangles> off_collider_edges;  // edges of boxes are not kept off these; the earliest first
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     // Calls the visitor for every frame, in order, as a long run's are not all in memory. Null: there are none.

@@ -16,7 +16,7 @@ namespace drape::glsl {
 #include "include/bdf2.h"
 #include "include/bend.h"
 #include "include/bent_line.h"
-#include "include/box_edges.h"
+#include "include/collider_edges.h"
 #include "include/colliders.h"
 #include "include/contact_law.h"
 #include "include/cut.h"

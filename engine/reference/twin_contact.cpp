@@ -12,12 +12,19 @@ using namespace glsl;
 
 namespace {
 
-/// Finds the displacement by which the triangles around a particle ask it to leave a box.
-struct BoxEdges {
+/// Finds the displacement by which the triangles around a particle ask it to leave a box or a mesh.
+struct ColliderEdges {
     const ClothModel& model;
     const TwinCloth& state;
     Field from;  ///< field of the displacements to start from
     CollisionPush push;
+    const vec4* fields;
+
+    bool near(int kind, vec3 local, const ColliderRecord& collider) const {
+        if (kind == kind_mesh)
+            return near_mesh(local, touching_plane(local, true_mesh(collider), fields), collider, push.contact.x);
+        return kind == kind_box && near_box_edge(local, xyz(collider.shape), push.contact.x);
+    }
 
     std::size_t place(ivec2 texel) const {
         return model.grid.particle(static_cast<std::uint32_t>(texel.x), static_cast<std::uint32_t>(texel.y));
@@ -29,23 +36,27 @@ struct BoxEdges {
         return {local_point(collider, moved_position(xyz(start), moved)), moved, start.w};
     }
 
-    vec3 taken(ivec2 texel, const CutCorner& own, const ColliderRecord& collider) const {
+    vec3 taken(ivec2 texel, const CutCorner& own, const ColliderRecord& collider, bool is_mesh) const {
         vec3 taken{0, 0, 0};
+        const vec4 plane = is_mesh ? touching_plane(own.local, true_mesh(collider), fields) : vec4{};
         for_triangles_around(state.topology.grid(), texel, [&](ivec2 cell, int which) {
             const int corner = corner_of_triangle(which, {texel.x - cell.x, texel.y - cell.y});
             const auto other = [&](int step) {
                 const ivec2 offset = triangle_corner(which, (corner + step) % 3);
                 return corner_at({cell.x + offset.x, cell.y + offset.y}, collider);
             };
-            taken = with_triangle(taken, own, other(1), other(2), collider, push.contact.w);
+            taken = is_mesh
+                        ? with_mesh_triangle(taken, own, other(1), other(2), plane, collider, push.contact.w, fields)
+                        : with_triangle(taken, own, other(1), other(2), collider, push.contact.w);
         });
         return taken;
     }
 };
 
-void run_box_edges(const TwinPlace& where) {
+void run_collider_edges(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const BoxEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement, model.box_edges()};
+    const ColliderEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement,
+                              model.collider_edges(), scene.mesh_fields.data()};
     const std::vector<drape::Collider>& colliders = scene.scene.colliders;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (int y = 0; y < edges.push.grid.y; ++y)
@@ -56,10 +67,10 @@ void run_box_edges(const TwinPlace& where) {
             bool touched = step.after_edges && state[edges.from][i].w > 0.0f;
             for (std::size_t k = 0; k < colliders.size(); ++k) {
                 const ColliderRecord& collider = inputs.colliders[first + k];
-                if (colliders[k].kind() != kind_box) continue;
+                const int kind = colliders[k].kind();
                 const vec3 local = local_point(collider, moved_position(xyz(start), moved));
-                if (start.w == 0.0f || !near_box_edge(local, xyz(collider.shape), edges.push.contact.x)) continue;
-                const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider);
+                if (start.w == 0.0f || !edges.near(kind, local, collider)) continue;
+                const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider, kind == kind_mesh);
                 moved = taken_displacement(moved, taken, local, collider, edges.push.contact.y);
                 touched = touched || ordered_dot(taken, taken) > 0.0f;
             }
@@ -152,7 +163,7 @@ void run_collide(const TwinPlace& where) {
 }  // namespace
 
 std::vector<TwinRow> twin_contact_rows() {
-    return {{StepKind::box_edges, run_box_edges}, {StepKind::collide, run_collide}};
+    return {{StepKind::collider_edges, run_collider_edges}, {StepKind::collide, run_collide}};
 }
 
 }  // namespace drape

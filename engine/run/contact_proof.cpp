@@ -35,9 +35,9 @@ Manifest::SelfCollision self_collision_of(const Simulation& simulation, const Se
     return proof;
 }
 
-bool meets_box_edges(const SceneDescription& scene, const std::string& name) {
+bool meets_edges(const SceneDescription& scene, const std::string& name) {
     const auto cloth = std::ranges::find(scene.cloths, name, &Cloth::name);
-    return cloth != scene.cloths.end() && meets_box_edges(*cloth, scene.colliders);
+    return cloth != scene.cloths.end() && meets_edges(*cloth, scene.colliders);
 }
 
 }  // namespace
@@ -60,19 +60,19 @@ void describe_contact(Manifest& manifest, const Simulation& simulation, std::spa
         manifest.self_collision->not_covered = split;
     }
     for (const Manifest::SplitTriangles& each : split)
-        if (meets_box_edges(simulation.scene(), each.cloth)) manifest.off_box_edges.push_back(each);
+        if (meets_edges(simulation.scene(), each.cloth)) manifest.off_collider_edges.push_back(each);
 }
 
 std::optional<std::string> left_out_of_contact(const Manifest& manifest) {
     const bool of_cloths = manifest.self_collision && !manifest.self_collision->not_covered.empty();
-    const bool of_edges = !manifest.off_box_edges.empty();
+    const bool of_edges = !manifest.off_collider_edges.empty();
     if (!of_cloths && !of_edges) return std::nullopt;
-    const auto& split = of_cloths ? manifest.self_collision->not_covered : manifest.off_box_edges;
+    const auto& split = of_cloths ? manifest.self_collision->not_covered : manifest.off_collider_edges;
     return fmt::format("{} that cutters split from frame {} on {}; a finer grid makes the strip of them narrower",
                        triangles_text(split), split.front().first_frame,
-                       of_cloths && of_edges ? "meet no cloth and no edge of a box"
+                       of_cloths && of_edges ? "meet no cloth and no edge of a collider"
                        : of_cloths           ? "meet no cloth"
-                                             : "meet no edge of a box");
+                                             : "meet no edge of a collider");
 }
 
 std::optional<std::string> lost_proof(const Simulation& simulation) {

@@ -48,9 +48,16 @@ double covering_radius(const Cloth& cloth) {
     return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
 }
 
-bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
+double edge_reach(const Cloth& cloth) { return 2 * covering_radius(cloth); }
+
+bool meets_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
+    // A shell is made of balls, by which it grows.
+    const auto has_edges = [](const Collider& each) {
+        const Mesh* mesh = std::get_if<Mesh>(&each.shape);
+        return std::holds_alternative<Box>(each.shape) || (mesh && !mesh->shell);
+    };
     return cloth.contact == ContactOf::surface && cloth.thickness < covering_radius(cloth) &&
-           std::ranges::any_of(colliders, [](const Collider& each) { return std::holds_alternative<Box>(each.shape); });
+           std::ranges::any_of(colliders, has_edges);
 }
 
 Collider contact_shape(const Cloth& cloth, const Collider& collider) {

@@ -14,17 +14,21 @@ inline constexpr double contact_stretch = 0.2247;
 /// third side from it.
 double covering_radius(const Cloth& cloth);
 
-/// Returns whether edges of boxes may cut a cloth between its particles: one collider is a box, and the thickness does
-/// not keep it clear.
-bool meets_box_edges(const Cloth& cloth, const std::vector<Collider>& colliders);
+/// Returns how long an edge of the cloth is that is allowed for, m.
+double edge_reach(const Cloth& cloth);
+
+/// Returns whether edges of boxes or meshes may cut a cloth between its particles: one collider is a box or a closed
+/// mesh, and the thickness does not keep it clear.
+bool meets_edges(const Cloth& cloth, const std::vector<Collider>& colliders);
 
 /// Returns the collider from which contact keeps the cloth's particles, its thickness on top. It is the collider itself
 /// for `ContactOf::particles`, planes and boxes. A triangle is outside a ball of radius R if its corners are at least
 /// sqrt(R^2 + c^2) from its centre, c being the covering radius, and a round collider is made of balls: each radius of
 /// a capsule grows by that law. An ellipsoid grows in proportion to how its smallest radius does, because the map that
 /// makes a unit ball of it makes nothing longer than in the ball of that radius. A mesh grows as a ball of its inner
-/// radius does, so that a ball, rod or torus of triangles is met as its round original; cells may dip into sharper
-/// edges of it. What the thickness keeps clear already is taken off; where that is enough, it is the collider itself.
+/// radius does, so that a ball, rod or torus of triangles is met as its round original; sharper edges of it are met as
+/// those of boxes are. What the thickness keeps clear already is taken off; where that is enough, it is the collider
+/// itself.
 Collider contact_shape(const Cloth& cloth, const Collider& collider);
 
 }  // namespace drape

@@ -21,8 +21,10 @@ double half_cell(const SceneDescription& scene) {
 
 double margin_of(const SceneDescription& scene, const Collider& collider) {
     double margin = 0;
-    for (const Cloth& cloth : scene.cloths)
+    for (const Cloth& cloth : scene.cloths) {
         margin = std::max(margin, cloth.thickness + std::get<Mesh>(contact_shape(cloth, collider).shape).grown);
+        if (meets_edges(cloth, {collider})) margin = std::max(margin, edge_reach(cloth));
+    }
     return margin;
 }
 

@@ -69,7 +69,7 @@ std::string line_label(Place p) {
 std::string explicit_label(Place p) {
     return p.step.count > 1 ? fmt::format("{} explicit steps", p.step.count) : "explicit step";
 }
-std::string box_edges_label(Place p) { return p.step.after_edges ? "box edges again" : "box edges"; }
+std::string collider_edges_label(Place p) { return p.step.after_edges ? "collider edges again" : "collider edges"; }
 
 graph::PushConstants wind_push(Place p) {
     glsl::WindPush push = p.cloth->model->wind;
@@ -113,7 +113,7 @@ graph::PushConstants collision_push(Place p) {
     if (!p.step.leading) push.contact.w = 0;
     return contact_push(p, push);
 }
-graph::PushConstants box_edges_push(Place p) { return contact_push(p, p.cloth->model->box_edges()); }
+graph::PushConstants collider_edges_push(Place p) { return contact_push(p, p.cloth->model->collider_edges()); }
 graph::PushConstants residual_push(Place p) { return p.cloth->model->residual; }
 graph::PushConstants decide_push(Place p) {
     return glsl::IterationPush{static_cast<int>(residual_count(p.cloth->model->grid)), p.model.iteration_limit(),
@@ -139,7 +139,7 @@ std::string all_springs_alias(Place p, std::string_view name, bool written) {
     const bool spare = written ? p.step.turns : !p.step.turns && p.step.iteration > 0;
     return std::string(name) + (spare ? "_spare" : "");
 }
-std::string box_edges_alias(Place p, std::string_view name, bool written) {
+std::string collider_edges_alias(Place p, std::string_view name, bool written) {
     if (written) return variable_of(p.step.after_edges ? Field::lifted : Field::lifted_once);
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
 }
@@ -185,7 +185,7 @@ std::vector<StepRow> first_rows() {
 std::vector<StepRow> other_rows() {
     using enum Kernel;
     const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
-        cut{{"masked", masked}, {"buffered", buffered}},
+        edges{{"masked", masked}, {"meshes", meets_meshes}, {"buffered", collides_buffered}},
         spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
         springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, reduced{{"masked", masked}, {"bent", bends}},
@@ -218,12 +218,12 @@ std::vector<StepRow> other_rows() {
          tension_alias<glsl::LinePush>},
         {StepKind::nested, "nested boxes", {{plain, "nested.comp", nested, over_nested_pins}}},
         {StepKind::tether, "tethers", {{plain, "tether.comp", stored, over_strips}}, grid_push},
-        {StepKind::box_edges,
-         box_edges_label,
-         {{plain, "box_edges.comp", cut, over_columns}},
-         box_edges_push,
+        {StepKind::collider_edges,
+         collider_edges_label,
+         {{plain, "collider_edges.comp", edges, over_columns}},
+         collider_edges_push,
          nullptr,
-         box_edges_alias},
+         collider_edges_alias},
         {StepKind::collide, "collision", {{plain, "collision.comp", collide, over_columns}}, collision_push},
         {StepKind::residual, "residual", {{plain, "residual.comp", masked_only, over_residual_strips}}, residual_push},
         {StepKind::decide,

@@ -49,9 +49,10 @@ std::size_t step_rounds(const StepPlace& place) {
         return place.model.collision_rounds() * (1 + 2 * count + 48 * count_of(place.model, glsl::kind_ellipsoid)) +
                count;
     }
-    // One finds whether the particle is near each box, then each box is met by each triangle around it.
+    // One finds whether the particle is near each box or mesh, then each is met by each triangle around it.
     constexpr std::size_t triangles = 6;
-    if (place.step.kind == StepKind::box_edges) return 2 + count_of(place.model, glsl::kind_box) * (2 + triangles);
+    if (place.step.kind == StepKind::collider_edges)
+        return 2 + (count_of(place.model, glsl::kind_box) + count_of(place.model, glsl::kind_mesh)) * (2 + triangles);
     return 1;
 }
 

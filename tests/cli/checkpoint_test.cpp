@@ -131,7 +131,7 @@ TEST(Checkpoint, KeepsWhatContactLeavesOut) {
     into.insert(into.end(), {"--resume", "-e", end});
     const Outcome resumed = drape(into);
     ASSERT_EQ(resumed.code, 0) << resumed.err;
-    EXPECT_THAT(resumed.err, HasSubstr("meet no cloth and no edge of a box"));
+    EXPECT_THAT(resumed.err, HasSubstr("meet no cloth and no edge of a collider"));
     const Json::Value manifest = lasting_manifest(folder.out());
     EXPECT_EQ(manifest["self_collision"]["not_covered"].size(), 2u);
     arguments.insert(arguments.end(), {"-e", end});

@@ -114,13 +114,13 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
     EXPECT_TRUE(contact["proved"].asBool());
     EXPECT_EQ(contact["certificate"].asString(),
               "no crossing of whole triangles in any substep; not covered: " + split);
-    for (const Json::Value& list : {contact["not_covered"], manifest["box_edges"]["not_covered"]}) {
+    for (const Json::Value& list : {contact["not_covered"], manifest["collider_edges"]["not_covered"]}) {
         ASSERT_EQ(list.size(), 1u);
         EXPECT_EQ(list[0]["cloth"].asString(), "sheet");
         EXPECT_EQ(list[0]["first_frame"].asInt(), 6);
         EXPECT_EQ(list[0]["triangles"], count);
     }
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a box; a finer grid"),
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a collider; a finer grid"),
                                    Not(HasSubstr("warning"))));
     EXPECT_EQ(drape({"report", folder.out()}).code, 0);
     EXPECT_THAT(read_text(folder / "out/report.html"),
@@ -133,7 +133,7 @@ TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
     const Json::Value manifest = lasting_manifest(folder / "out");
     EXPECT_EQ(manifest["cuts"].size(), 1u);
     EXPECT_EQ(manifest["self_collision"]["certificate"].asString(), "no crossing in any substep");
-    EXPECT_FALSE(manifest.isMember("box_edges"));
+    EXPECT_FALSE(manifest.isMember("collider_edges"));
     EXPECT_THAT(outcome.err, Not(HasSubstr("note: ")));
 }
 

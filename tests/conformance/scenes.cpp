@@ -166,7 +166,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"LineSoftInCompression", soft_lines(), 5},
         {"LonePins", around_lone_pins(false), 5},
         {"LonePinsWithHoles", around_lone_pins(true), 5},
-        {"BoxEdgesAndTethers", over_boxes(), 8},
+        {"ColliderEdgesAndTethers", over_boxes(), 8},
         {"SeveralRelaxed", several(relax, 4), 5},
         {"SeveralLine", several(line, 4), 5},
         {"SeveralExplicit", several(explicit_steps, 12), 5},

@@ -59,7 +59,7 @@ double largest(const std::vector<glsl::vec4>& texels, double least) {
 /// Returns the magnitude (m) of what a kind of step computes lengths from: edges, but places for what meets colliders,
 /// and the whole cloth for what reaches through it.
 double length_of(StepKind kind, const ClothModel& model, const TwinCloth& twin) {
-    if (kind == StepKind::box_edges || kind == StepKind::collide) return largest(twin[Field::position], 0);
+    if (kind == StepKind::collider_edges || kind == StepKind::collide) return largest(twin[Field::position], 0);
     const double across = model.spacing[0] * model.grid.columns(), down = model.spacing[1] * model.grid.rows();
     return kind == StepKind::tether ? std::hypot(across, down) : std::max(model.spacing[0], model.spacing[1]);
 }

@@ -27,7 +27,7 @@ const std::vector<StepBound>& step_bounds() {
         {line, 12, lines, 0, "a root and two divisions for each spring, and each moves all that follow"},
         {nested, 12, lines, 0, "as line, along lines that cross"},
         {tether, 16, fixed, 0, "a root and a division for each of two tethers"},
-        {box_edges, 32, fixed, 0, "divisions of where a triangle cuts an edge; which edge is decided by them"},
+        {collider_edges, 32, fixed, 0, "divisions of where a triangle cuts an edge; which edge is decided by them"},
         // Contact leaves what rests just as deep as its surface lets it be, so rounding says of any such particle
         // whether the next collision finds it there, and whether it is led out: a tenth of a cloth on a ball.
         {collide, 32, fixed, 100, "roots and divisions of distance and friction; what rests lies on a surface or not"},

@@ -103,8 +103,8 @@ TEST(TwinBoxEdgeTest, ThicknessThatCoversACellNeedsNoEdges) {
     scene.cloths[0].thickness = 0.05;
     const SimulationModel model(scene);
     EXPECT_EQ(model.cloths[0].edge_reach, 0);
-    EXPECT_TRUE(
-        std::ranges::none_of(frame_steps(model), [](const Step& step) { return step.kind == StepKind::box_edges; }));
+    EXPECT_TRUE(std::ranges::none_of(frame_steps(model),
+                                     [](const Step& step) { return step.kind == StepKind::collider_edges; }));
 }
 
 }  // namespace

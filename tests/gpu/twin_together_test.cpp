@@ -63,7 +63,7 @@ SceneDescription unlike(SceneDescription scene) {
 
 TEST(TwinTogetherTest, Lines) {
     const SceneDescription scene = several(SolverMethod::line);
-    EXPECT_GT(std::ranges::count(frame_steps(SimulationModel(scene)), StepKind::box_edges, &Step::kind), 0);
+    EXPECT_GT(std::ranges::count(frame_steps(SimulationModel(scene)), StepKind::collider_edges, &Step::kind), 0);
     for (const SceneDescription& each : {scene, unlike(scene)}) {
         for (const KernelSet& set : all_kernel_sets) EXPECT_TRUE(are_together(each, set.kernels)) << set.name;
         compare(each);

@@ -1,12 +1,13 @@
-// This pass leads the cloth between particles out of boxes' edges and corners (include/box_edges.h). It writes an image
-// of its own, as particles read their neighbours; the collision pass that follows goes on from there. MASKED takes the
-// triangles that exist from the cell image (holes, cuts).
+// This pass leads the cloth between particles out of edges and corners of boxes and meshes (include/collider_edges.h). It
+// writes an image of its own, as particles read their neighbours; the collision pass that follows goes on from there.
+// MASKED takes the triangles that exist from the cell image (holes, cuts). MESHES has triangle meshes among the
+// colliders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants MASKED BUFFERED
+#pragma variants MASKED MESHES|BUFFERED
 #include "shared/simulation_types.h"
-#include "include/box_edges.h"
+#include "include/collider_edges.h"
 #include "include/push.h"
 #include "include/triangles.h"
 
@@ -59,26 +60,46 @@ bool near_edge_of(ColliderRecord collider, vec3 now) {
                          push.contact.x);
 }
 
+#ifdef MESHES
+/// Returns whether an edge leads from a particle below the plane that touches a mesh where it is nearest. Most particles
+/// lie on what is flat or bulges the other way; without this the default device would meet six triangles for each.
+bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
+    vec3 local = local_point(collider, now);
+    vec4 plane = touching_plane(local, true_mesh(collider));
+    bool below = false;
+    int k = 0;
+    do {
+        ivec2 other = min(max(texel + edge_around(k), ivec2(0)), push.grid - 1);
+        below = below || leads_below(local, corner_at(other, collider).local, plane);
+        ++k;
+    } while (k < edges_around_particle);
+    return below && near_mesh(local, plane, collider, push.contact.x);
+}
+#endif
+
 #define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
-/// Returns whether a particle may meet an edge of a box. In the second round only those may that were near one in the
-/// first, as the first moved no others.
-bool may_meet(vec4 start, vec4 moved) {
+/// Returns whether a particle may meet an edge of a box or a mesh. In the second round only those may that were near
+/// one in the first, as the first moved no others.
+bool may_meet(ivec2 texel, vec4 start, vec4 moved) {
     bool near = again && moved.w != 0.0f;
+    vec3 now = moved_position(start.xyz, moved.xyz);
     if (!again) {
-        vec3 now = moved_position(start.xyz, moved.xyz);
         EACH_BOX(NEAR_EDGE)
     }
+#ifdef MESHES
+    for (int i = capsules_end; i < meshes_end; ++i) near = near || leads_into(colliders[push.first + i], texel, now);
+#endif
     return near && start.w != 0.0f;
 }
 
-/// Writes the particles of a strip as they are. Returns those that may meet an edge of a box: bit k is row k.
+/// Writes the particles of a strip as they are. Returns those that may meet an edge: bit k is row k.
 uint copy_strip(int column, int first, int count) {
     uint rows = 0u;
     int k = 0;
     do {  // loops end at their bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 moved = LOAD(displacement, texel);
-        bool near = may_meet(LOAD(position, texel), moved);
+        bool near = may_meet(texel, LOAD(position, texel), moved);
         STORE_VECTOR(lifted, texel, vec4(moved.xyz, again ? moved.w : 0.0f));
         rows |= near ? 1u << k : 0u;
         ++k;
@@ -88,13 +109,28 @@ uint copy_strip(int column, int first, int count) {
 
 struct Led {
     vec3 moved;    // displacement of a particle, m
-    bool touched;  // whether a box led it
+    bool touched;  // whether a collider led it
 };
 
-Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
+/// The plane that touches a mesh is of the corner a.
+vec3 taken_by_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 plane, ColliderRecord collider,
+                       bool is_mesh) {
+#ifdef MESHES
+    if (is_mesh) return with_mesh_triangle(taken, a, b, c, plane, collider, push.contact.w);
+#endif
+    return with_triangle(taken, a, b, c, collider, push.contact.w);
+}
+
+Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near, bool is_mesh) {
     vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
     vec3 taken = vec3(0.0f, 0.0f, 0.0f);
-    bool near = near_edge_of(collider, moved_position(start.xyz, led.moved));
+    vec4 plane = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+#ifdef MESHES
+    if (is_mesh) {
+        plane = touching_plane(local, true_mesh(collider));
+        near = near_mesh(local, plane, collider, push.contact.x);
+    }
+#endif
     int k = 0;
     do {
         ivec4 around = triangle_around(k);
@@ -103,20 +139,29 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led) {
         ivec2 next = cell + triangle_corner(around.z, own == 2 ? 0 : own + 1);
         ivec2 last = cell + triangle_corner(around.z, own == 0 ? 2 : own - 1);
         if (near && exists(cell, around.z))
-            taken = with_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
-                                  corner_at(last, collider), collider, push.contact.w);
+            taken = taken_by_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
+                                      corner_at(last, collider), plane, collider, is_mesh);
         ++k;
     } while (near && k < triangles_around_particle);
     return Led(taken_displacement(led.moved, taken, local, collider, push.contact.y),
                led.touched || ordered_dot(taken, taken) > 0.0f);
 }
 
-#define LED_BY(collider) led = led_by(collider, texel, start, led);
-/// Returns a particle's displacement after all boxes, and in w 1 where one led it, else -1.
-vec4 led_by_boxes(ivec2 texel) {
+bool near_now(ColliderRecord collider, vec4 start, Led led) {
+    return near_edge_of(collider, moved_position(start.xyz, led.moved));
+}
+
+#define LED_BY(collider) led = led_by(collider, texel, start, led, near_now(collider, start, led), false);
+/// Returns a particle's displacement after all boxes and meshes, and in w 1 where one led it, else -1.
+vec4 led_by_all(ivec2 texel) {
     vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
     Led led = Led(before.xyz, again && before.w > 0.0f);
     EACH_BOX(LED_BY)
+#ifdef MESHES
+    for (int i = capsules_end; i < meshes_end; ++i) {
+        led = led_by(colliders[push.first + i], texel, start, led, true, true);
+    }
+#endif
     return vec4(led.moved, led.touched ? 1.0f : -1.0f);
 }
 
@@ -131,7 +176,7 @@ void main() {
     uint rows = copy_strip(column, first, count);
     do {
         ivec2 texel = ivec2(column, first + max(findLSB(rows), 0));
-        if (rows != 0u) STORE_VECTOR(lifted, texel, led_by_boxes(texel));
+        if (rows != 0u) STORE_VECTOR(lifted, texel, led_by_all(texel));
         rows &= max(rows, 1u) - 1u;
     } while (rows != 0u);
 }

@@ -1,10 +1,12 @@
-// This header handles contact of the cloth between its particles with the edges and corners of a box, which the contact
-// of particles (colliders.h) leaves alone. An edge of the cloth and an edge of the box, or a triangle and a corner,
-// that have passed each other are led apart along the one direction in which that is the least (separating axes), by
-// shares that the weights of the touching point in its triangle give. Each particle takes from every triangle around it
-// the most that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
-#ifndef DRAPE_BOX_EDGES_H
-#define DRAPE_BOX_EDGES_H
+// This header handles contact of the cloth between its particles with edges and corners of boxes and meshes, which the
+// contact of particles (colliders.h) leaves alone. An edge of the cloth and an edge of the box, or a triangle and a
+// corner, that have passed each other are led apart along the one direction in which that is the least (separating
+// axes), by shares that the weights of the touching point in its triangle give. Each particle takes from every triangle
+// around it the most that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
+// With a mesh, whose edges are known by its field of distances alone, the planes that touch it where it is nearest to
+// the corners of a triangle say where it has an edge or a corner between them.
+#ifndef DRAPE_COLLIDER_EDGES_H
+#define DRAPE_COLLIDER_EDGES_H
 
 #include "include/colliders.h"
 
@@ -149,6 +151,136 @@ SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
     int along = (beyond.x > -reach ? 1 : 0) + (beyond.y > -reach ? 1 : 0) + (beyond.z > -reach ? 1 : 0);
     return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
 }
+
+#ifdef MESHES
+/// The plane that touches a mesh where that is nearest to a corner of a triangle: normal (unit, outward, local) and the
+/// corner's distance from it, m, negative inside.
+SHARED vec4 touching_plane(vec3 local, ColliderRecord mesh WITH_FIELDS) {
+    SurfacePoint surface = mesh_surface(mesh, local FIELDS);
+    return vec4(surface.normal.x, surface.normal.y, surface.normal.z, surface.distance);
+}
+
+SHARED vec3 normal_of(vec4 plane) { return vec3(plane.x, plane.y, plane.z); }
+
+/// Returns how deep (m) a corner is inside, 0 outside.
+SHARED float inside_plane(vec4 plane) { return plane.w < 0.0f ? -plane.w : 0.0f; }
+
+/// Planes lead out along their mean; where they are all steeper against it than this cosine the mesh is too sharp or
+/// too thin for its samples, and is left alone.
+const float least_cosine = 0.3f;
+
+/// Returns a cut at `touching`, which is `depth` (m) below each of the planes that were seen from the corners. `mean`
+/// is their normals' by the shares with which they hold each other; particles alone lead out of `known`.
+SHARED BoxCut cut_of_planes(vec3 touching, float depth, vec3 mean, vec3 shares, float known,
+                            ColliderRecord mesh WITH_FIELDS) {
+    precise float cosine = sqrt(ordered_dot(mean, mean));
+    if (!(depth > known) || !(cosine > least_cosine)) return no_cut();
+    // Planes overrate how deep a point is in what is convex, samples underrate it by less than half their spacing.
+    precise float blunt = 0.5f * FIELD_TEXEL(int(mesh.way_out.x)).w;
+    precise float seen = -mesh_surface(mesh, touching FIELDS).distance;
+    precise float most = seen + blunt;
+    float inside = smaller_of(depth, most);
+    if (!(inside > known)) return no_cut();
+    precise vec3 normal = mean / cosine;
+    precise float way = inside / cosine;
+    return BoxCut(normal, way, shares);
+}
+
+/// Cuts an edge by an edge of the mesh, into which it leads from both of its ends.
+SHARED BoxCut edge_in_mesh(vec3 a, vec3 b, vec4 at_a, vec4 at_b, ColliderRecord mesh WITH_FIELDS) {
+    precise vec3 along = b - a;
+    float fall = -ordered_dot(normal_of(at_a), along);
+    float rise = ordered_dot(normal_of(at_b), along);
+    if (!(fall > 0.0f) || !(rise > 0.0f)) return no_cut();
+    precise float both = fall + rise;
+    precise float share = (at_a.w - at_b.w + rise) / both;
+    if (!(share > 0.0f) || !(share < 1.0f)) return no_cut();
+    precise float rest = 1.0f - share;
+    precise vec3 touching = a + along * share;
+    precise float depth = fall * share - at_a.w;
+    precise vec3 mean = (normal_of(at_a) * rise + normal_of(at_b) * fall) / both;
+    return cut_of_planes(touching, depth, mean, vec3(rest, share, 0.0f),
+                         larger_of(inside_plane(at_a), inside_plane(at_b)), mesh FIELDS);
+}
+
+/// Cuts a triangle by a corner of the mesh, into which it leads from all three of its own.
+SHARED BoxCut triangle_in_mesh(vec3 a, vec3 b, vec3 c, vec4 at_a, vec4 at_b, vec4 at_c,
+                               ColliderRecord mesh WITH_FIELDS) {
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    vec3 to_b =
+        vec3(ordered_dot(normal_of(at_a), ab), ordered_dot(normal_of(at_b), ab), ordered_dot(normal_of(at_c), ab));
+    vec3 to_c =
+        vec3(ordered_dot(normal_of(at_a), ac), ordered_dot(normal_of(at_b), ac), ordered_dot(normal_of(at_c), ac));
+    // With these weights the planes' mean does not fall along the triangle.
+    vec3 weights = ordered_cross(to_b, to_c);
+    precise float sum = weights.x + weights.y + weights.z;
+    precise vec3 held = weights / sum;
+    if (!(held.x > 0.0f) || !(held.y > 0.0f) || !(held.z > 0.0f)) return no_cut();
+    // The planes have the same height where these two lines meet, in weights of b and c.
+    precise vec2 first = vec2(to_b.x - to_b.y, to_c.x - to_c.y);
+    precise vec2 second = vec2(to_b.x - to_b.z, to_c.x - to_c.z);
+    precise float ends_first = at_b.w - to_b.y - at_a.w;
+    precise float ends_second = at_c.w - to_c.z - at_a.w;
+    precise float area = first.x * second.y - first.y * second.x;
+    precise float of_b = (ends_first * second.y - ends_second * first.y) / area;
+    precise float of_c = (first.x * ends_second - second.x * ends_first) / area;
+    precise float of_a = 1.0f - of_b - of_c;
+    if (!(of_a > 0.0f) || !(of_b > 0.0f) || !(of_c > 0.0f)) return no_cut();
+    precise vec3 touching = a + ab * of_b + ac * of_c;
+    precise float depth = -(at_a.w + to_b.x * of_b + to_c.x * of_c);
+    precise vec3 mean = normal_of(at_a) * held.x + normal_of(at_b) * held.y + normal_of(at_c) * held.z;
+    float known = larger_of(inside_plane(at_a), larger_of(inside_plane(at_b), inside_plane(at_c)));
+    return cut_of_planes(touching, depth, mean, vec3(of_a, of_b, of_c), known, mesh FIELDS);
+}
+
+/// The mesh itself, not grown as contact of particles takes it.
+SHARED ColliderRecord true_mesh(ColliderRecord collider) {
+    collider.way_out.y = 0.0f;
+    return collider;
+}
+
+/// A mesh has no side by which cloth leaves it.
+SHARED ColliderRecord without_way_out(ColliderRecord collider) {
+    collider.way_out = vec4(0.0f, 0.0f, 0.0f, collider.way_out.w);
+    return collider;
+}
+
+const int edges_around_particle = 6;
+
+/// The other end of edge k (0..5) around a particle, relative to it.
+SHARED ivec2 edge_around(int k) {
+    if (k < 2) return ivec2(k == 0 ? 1 : -1, 0);
+    if (k < 4) return ivec2(0, k == 2 ? 1 : -1);
+    return ivec2(k == 4 ? 1 : -1, k == 4 ? -1 : 1);
+}
+
+/// Returns whether an edge leads from its first end below the plane there, without which nothing cuts it.
+SHARED bool leads_below(vec3 a, vec3 b, vec4 at_a) {
+    precise vec3 along = b - a;
+    return -ordered_dot(normal_of(at_a), along) > at_a.w;
+}
+
+/// Returns `taken` with all that a triangle which meets a mesh asks of its first corner, whose touching plane is given.
+SHARED vec3 with_mesh_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 at_a, ColliderRecord collider,
+                               float recovery WITH_FIELDS) {
+    if (!leads_below(a.local, b.local, at_a) && !leads_below(a.local, c.local, at_a)) return taken;
+    ColliderRecord mesh = true_mesh(collider), leaving = without_way_out(collider);
+    vec4 at_b = touching_plane(b.local, mesh FIELDS);
+    vec4 at_c = touching_plane(c.local, mesh FIELDS);
+    taken = with_cut(taken, edge_in_mesh(a.local, b.local, at_a, at_b, mesh FIELDS), a, b, c, leaving, recovery);
+    taken = with_cut(taken, edge_in_mesh(a.local, c.local, at_a, at_c, mesh FIELDS), a, c, b, leaving, recovery);
+    return with_cut(taken, triangle_in_mesh(a.local, b.local, c.local, at_a, at_b, at_c, mesh FIELDS), a, b, c, leaving,
+                    recovery);
+}
+
+/// Returns whether an edge of the cloth shorter than `reach` that ends at a particle can meet a mesh.
+SHARED bool near_mesh(vec3 local, vec4 plane, ColliderRecord collider, float reach) {
+    vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
+    precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
+    return beyond.x < reach && beyond.y < reach && beyond.z < reach && abs(plane.w) < reach;
+}
+#endif
 
 /// Displacement of a particle that a box has moved by `taken` (m, local), with friction.
 SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 local, ColliderRecord collider, float friction) {
