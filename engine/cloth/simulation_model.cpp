@@ -145,9 +145,9 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
         all.push_back({"questions whether a substep needs another iteration",
                        "on a GPU the iterations of small cloth cost less: all are done"});
     if (!has_companions())
-        all.push_back(
-            {"companion runs",
-             closed_loop() ? "solver.estimate_error is false"
+        all.push_back({"companion runs",
+                       closed_loop()
+                           ? "solver.estimate_error is false"
                            : "the position error of a method that is named is estimated where solver.estimate_error "
                              "says so"});
     else if (companions(scene.solver.substeps).coarser == 0)

@@ -120,8 +120,9 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
         EXPECT_EQ(list[0]["first_frame"].asInt(), 6);
         EXPECT_EQ(list[0]["triangles"], count);
     }
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a collider; a finer grid"),
-                                   Not(HasSubstr("warning"))));
+    EXPECT_THAT(outcome.err,
+                AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a collider; a finer grid"),
+                      Not(HasSubstr("warning"))));
     EXPECT_EQ(drape({"report", folder.out()}).code, 0);
     EXPECT_THAT(read_text(folder / "out/report.html"),
                 HasSubstr("Not covered: " + count.asString() + " triangles of cloth 'sheet', from frame 6 on."));
