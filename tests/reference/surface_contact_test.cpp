@@ -21,6 +21,7 @@ struct Drawn {
     double deepest = -1e300, last = -1e300;  ///< m, over all frames looked at, and in the last one
     std::size_t points = 0;                  ///< in the frame in which most of it was near
     double top = 0;                          ///< m, height of the highest particle at the end
+    double middle = 0;                       ///< m, height of the particle in the middle at the end
     double kinetic = 0;                      ///< J at the end
 };
 
@@ -52,6 +53,7 @@ Drawn drop(const Collider& collider, ContactOf contact, const Change& change = {
         drawn.last = one.deepest;
         drawn.top = -1e300;
         for (const Vec3& point : at) drawn.top = std::max(drawn.top, point[1]);
+        drawn.middle = at[at.size() / 2][1];
     }
     drawn.kinetic = test::energy_of(model, 0, twin.cloth(0)).kinetic;
     return drawn;
@@ -130,6 +132,35 @@ TEST(SurfaceContactTest, RoundMeshes) {
     expect_outside("moving torus of triangles", with_path(ring), 0.18);
     Collider rod{test::mesh_of(test::capsule_mesh(0.4, 0.25, 96), {0, 0.35, 0}), 0.3, {0, 0, 70}};
     expect_outside("capsule of triangles", rod, 0.25);
+}
+
+/// Returns how much higher (m) cloth lies on a mesh than on the kind of collider that it approximates.
+double higher(const Collider& mesh, const Collider& kind) {
+    return drop(mesh, ContactOf::surface).middle - drop(kind, ContactOf::surface).middle;
+}
+
+/// With the mesh and its samples cloth comes to lie as high as on the kind itself. A box of triangles has grown.
+TEST(SurfaceContactTest, ClothRestsOnMeshesAsOnTheirKinds) {
+    const Vec3 middle{0, 0.3, 0}, half{0.4, 0.25, 0.3};
+    const auto fine = [](Mesh mesh, double spacing) {
+        mesh.spacing = spacing;
+        return Collider{mesh};
+    };
+    double ball = 0, rod = 0;
+    for (const std::uint32_t columns : {16, 32, 64}) {
+        ball = higher(fine(test::mesh_of(test::ball_mesh(0.5, columns), middle), 0.8 / columns),
+                      Collider{Sphere{middle, 0.5}});
+        rod = higher(fine(test::mesh_of(test::capsule_mesh(0.3, 0.25, columns), middle), 0.8 / columns),
+                     Collider{Capsule{{0, 0, 0}, {0, 0.6, 0}, {0.25, 0.25}}});
+        std::printf("[ measured ] %u columns: ball %.2e m higher, capsule %.2e m\n", columns, ball, rod);
+    }
+    EXPECT_LE(std::max(std::abs(ball), std::abs(rod)), 1e-3);
+    const Mesh triangles = test::mesh_of(test::box_mesh(half), middle);
+    const double box = higher(Collider{triangles}, Collider{Box{middle, half}});
+    const double covering = 0.5 * (1 + contact_stretch) * std::hypot(0.05, 0.05);
+    const double grown = std::hypot(triangles.shape->inner_radius(), covering) - triangles.shape->inner_radius();
+    std::printf("[ measured ] box %.2e m higher, grown by %.2e m\n", box, grown);
+    EXPECT_NEAR(box, grown, 1e-4);
 }
 
 /// Samples a quarter of a cell apart tell where edges are. Usual ones, half a cell apart, blunt them.

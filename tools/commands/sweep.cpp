@@ -16,6 +16,7 @@
 #include "output/atomic_file.h"
 #include "program.h"
 #include "streams.h"
+#include "sweep/bound.h"
 #include "sweep/groups.h"
 #include "sweep/local_runs.h"
 
@@ -257,7 +258,9 @@ ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, cons
     runs.stop = stop_requested;
     runs.quiet = options.quiet;
     runs.dataset = options.dataset;
+    const sweep::Occupancy occupancy(std::max(1u, std::thread::hardware_concurrency()));
     if (!sweep::run_locally(runs, folder)) return report_stop("--resume goes on");
+    if (const std::string bound = occupancy.text(); !options.quiet && !bound.empty()) print_message(bound);
     return conclude(options, folder);
 }
 
