@@ -110,7 +110,7 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
     ASSERT_EQ(manifest["cuts"].size(), 1u);
     const Json::Value count = manifest["cuts"][0]["triangles"];
     EXPECT_GE(count.asUInt(), 8u);
-    const std::string split = count.asString() + " triangles of cloth 'sheet' that cutters split from frame 6 on";
+    const std::string split = count.asString() + " triangles of cloth 'sheet' that were split from frame 6 on";
     EXPECT_TRUE(contact["proved"].asBool());
     EXPECT_EQ(contact["certificate"].asString(),
               "no crossing of whole triangles in any substep; not covered: " + split);

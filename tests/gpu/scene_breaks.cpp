@@ -48,7 +48,10 @@ void never_released(SceneDescription& scene) {
 void no_self_collision(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
 }
-void never_cut(SceneDescription& scene) { scene.cutters.clear(); }
+void never_cut(SceneDescription& scene) {
+    scene.cutters.clear();
+    for (Cloth& cloth : scene.cloths) cloth.tear.reset();
+}
 
 void pins_let_go(SimulationModel& model) {
     for (ClothModel& cloth : model.cloths)
