@@ -188,14 +188,16 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     const FrameNeeds wanted = needs(kind);
     solver_.declare(frame.graph, wanted, run);
     if (has.simulates) solver_.add_simulation(frame.graph);
-    if (has.searches_cuts) {
-        solver_.add_cuts(frame.graph);
-        if (kind != FrameKind::initial_cut) solver_.add_tears(frame.graph);
-    } else {
+    const bool cuts = has.searches_cuts && !model_.scene.cutters.empty();
+    const bool tears = has.searches_cuts && model_.scene.tears() && kind != FrameKind::initial_cut;
+    if (cuts) solver_.add_cuts(frame.graph);
+    if (tears) solver_.add_tears(frame.graph);
+    if (!cuts)
         frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
                                                                     : "no cutter is active in this kind of frame");
-    }
-    if (!model_.scene.tears()) frame.graph.skip("tear search", "no cloth of the scene tears");
+    if (!tears)
+        frame.graph.skip("tear search",
+                         model_.scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
     if (has.hands_out && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
     if (has.hands_out && options_.draw)
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));

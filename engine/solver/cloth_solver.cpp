@@ -227,7 +227,6 @@ void ClothSolver::for_each_cloth(const Add& add) {
 }
 void ClothSolver::add_cuts(graph::Graph& graph) {
     const std::size_t count = model_.scene.cutters.size();
-    if (count == 0) return;
     const graph::Handle cutters = declare_cutters(graph, count);
     for_each_cloth([&](ClothState& state) { add_cut(graph, pipelines_, state, cutters, count); });
 }

@@ -139,7 +139,7 @@ TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
 
 TEST(Crossings, AreCountedByClothFromTheFirstFrameOn) {
     const std::vector<Manifest::Cut> cuts{
-        {3, "a", 2, 0, 0}, {4, "b", 9, 5, 0}, {7, "a", 3, 1, 0}, {8, "b", 9, 6, 0}, {9, "a", 3, 4, 0}};
+        {3, "a", 2, 0, 0, 1}, {4, "b", 9, 0, 5, 1}, {7, "a", 3, 3, 1, 1}, {8, "b", 9, 0, 6, 2}, {9, "a", 3, 0, 4, 1}};
     const auto split = split_triangles(cuts, 9);
     ASSERT_EQ(split.size(), 2u);
     EXPECT_EQ(split[0].cloth, "b");

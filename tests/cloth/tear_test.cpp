@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <random>
 
 #include "cloth/simulation_model.h"
 #include "reference/spring_network.h"
@@ -143,6 +146,38 @@ TEST(TearTest, ATearComesToHoles) {
     EXPECT_EQ(test::piece_count(sheet.topology) - 3u, 1u) << "particles inside the hole are pieces of their own";
     sheet.along_column(8, 6) = 1.15f;
     EXPECT_EQ(sheet.tear().pieces, 2u);
+}
+
+/// Whatever the loads, both sides stay consistent, no area is lost, and a spring that bears its load holds.
+TEST(TearTest, RandomLoadsKeepEveryInvariant) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> load(0, 1.4f);
+    std::uniform_int_distribution<std::uint32_t> place(0, 7);
+    std::uint32_t most_pieces = 0;
+    for (int round = 0; round < 60; ++round) {
+        const std::uint32_t column = place(random), row = place(random);
+        const std::vector<IndexBox> hole{{{column, row}, {column + round % 3, row + round % 4}}};
+        Loaded sheet(hole);
+        const double area = sheet.topology.rest_area();
+        for (int frame = 0; frame < 12; ++frame) {
+            for (std::size_t k = 0; k < sheet.loads.size(); ++k) {
+                const auto at = static_cast<std::uint32_t>(k);
+                const glsl::vec4 share = sheet.topology.masked()
+                                             ? sheet.topology.spring_shares()[k]
+                                             : sheet.model.cloths[0].grid.spring_shares(at % columns, at / columns);
+                sheet.loads[k] = {at % columns + 1 < columns && share.x > 0 ? load(random) : 0,
+                                  at / columns + 1 < rows && share.y > 0 ? load(random) : 0, 0, 0};
+            }
+            const CutFindings once = torn_springs(sheet.topology, sheet.loads);
+            const CutFindings again = torn_springs(sheet.topology, sheet.loads);
+            EXPECT_EQ(std::memcmp(once.fractions.data(), again.fractions.data(), columns * rows * sizeof(glsl::vec4)),
+                      0);
+            const CutCounts counts = sheet.tear();
+            most_pieces = std::max(most_pieces, counts.pieces);
+            EXPECT_NEAR(sheet.topology.rest_area(), area, 1e-6 * area);
+        }
+    }
+    EXPECT_GT(most_pieces, 8u);
 }
 
 /// Returns where the particles of an evenly stretched sheet are.
