@@ -1,4 +1,4 @@
-// What a cloth bears before it tears, and which of the springs that bear too much end: tears are lines.
+// The limits of a cloth that tears, and the choice of the springs that end: a tear is a line.
 #pragma once
 
 #include <vector>

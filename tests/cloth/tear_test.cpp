@@ -107,7 +107,7 @@ TEST(TearTest, ATearGoesOnBeforeAnotherBegins) {
     sheet.tear();
     EXPECT_EQ(sheet.torn_count(), 7u);
     for (std::uint32_t column = 2; column < columns; ++column) EXPECT_TRUE(sheet.is_torn(column, 7)) << column;
-    // What holds the two sides is at the end of the tear: once it bears too much they part.
+    // The two sides part once the springs at the end of the tear bear too much.
     sheet.along_column(1, 7) = 1.01f;
     sheet.along_column(0, 7) = 1.01f;
     const CutCounts counts = sheet.tear();
