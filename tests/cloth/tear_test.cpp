@@ -115,6 +115,25 @@ TEST(TearTest, ATearGoesOnBeforeAnotherBegins) {
     EXPECT_EQ(sheet.torn_count(), columns);
 }
 
+TEST(TearTest, OnceATearMayHavePartedThePieceNothingElseOfItTears) {
+    Loaded sheet;
+    for (const std::uint32_t row : {2u, 8u}) {
+        sheet.along_column(4, row) = 1.2f;
+        sheet.tear();
+    }
+    ASSERT_EQ(sheet.torn_count(), 2u);
+    sheet.pull_columns(1.1f);
+    for (const std::uint32_t row : {2u, 8u}) sheet.along_column(4, row) = 0;
+    sheet.along_column(5, 8) = 1.2f;
+    sheet.tear();
+    EXPECT_EQ(sheet.torn_count(), 2u + 4u) << "one end goes on to the border, the other ends wait";
+    // A tear that comes to no border leaves the other its turn.
+    sheet.pull_columns(0);
+    sheet.along_column(3, 8) = sheet.along_column(3, 2) = 1.1f;
+    sheet.tear();
+    EXPECT_EQ(sheet.torn_count(), 2u + 4u + 2u);
+}
+
 TEST(TearTest, EveryPieceTearsOfItsOwn) {
     Loaded sheet;
     sheet.pull_columns(1.5f);

@@ -171,8 +171,7 @@ SceneDescription pulled_apart(SolverMethod method) {
     return scene;
 }
 
-TEST_P(TornBy, TheTwinsBits) {
-    const SceneDescription scene = pulled_apart(GetParam());
+void expect_the_twins_bits(const SceneDescription& scene) {
     test::TwinWithCuts twin(scene);
     CutCounts device, expected;
     std::array<std::uint32_t, 2> events{};
@@ -203,6 +202,14 @@ TEST_P(TornBy, TheTwinsBits) {
     EXPECT_EQ(device.triangles, expected.triangles);
     EXPECT_GT(device.torn, 40u);
     for (const std::uint32_t each : events) EXPECT_GE(each, 3u) << "tears go on from frame to frame";
+}
+
+TEST_P(TornBy, TheTwinsBits) { expect_the_twins_bits(pulled_apart(GetParam())); }
+
+TEST(TearTest, ClothThatMeetsItselfHasTheTwinsBits) {
+    SceneDescription scene = pulled_apart(SolverMethod::line);
+    for (Cloth& cloth : scene.cloths) cloth.self_collision = SelfCollision{};
+    expect_the_twins_bits(scene);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, TornBy,
