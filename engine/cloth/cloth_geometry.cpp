@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/vectors.h"
+#include "cloth/tear.h"
 #include "cloth/texels.h"
 #include "scene/start.h"
 #include "scene/weather.h"
@@ -32,6 +33,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     hold_pins(cloth.pins);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
+    if (cloth.tear) tear_limits = drape::tear_limits(cloth, grid);
 }
 
 Vec3 ClothGeometry::start_direction(std::uint32_t particle, std::size_t axis) const {
@@ -64,7 +66,7 @@ void ClothGeometry::place(const Cloth& cloth) {
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {
     if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
     tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, strongest_gravity(scene)));
-    if (!scene.cutters.empty())
+    if (scene.comes_apart())
         skipped.push_back(
             {name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});
 }

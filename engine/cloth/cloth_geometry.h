@@ -52,6 +52,8 @@ struct ClothGeometry {
     std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
     std::vector<float> free_weight;    ///< w without pins
     std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
+    /// Its springs along row and column bear this much before they tear (cloth/tear.h); empty: everything.
+    std::vector<glsl::vec4> tear_limits;
 
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins

@@ -58,7 +58,7 @@ std::vector<std::byte> cell_bits(Context c) { return bytes_of_list(c.topology.gr
 std::vector<std::byte> reference(Context c) { return bytes_of_list(std::vector{statistics_reference(c.cloth)}); }
 
 std::size_t draw_list_room(Context c, std::size_t count) {
-    return c.model.scene.cutters.empty() ? count : draw_list_capacity(count);
+    return c.model.scene.comes_apart() ? draw_list_capacity(count) : count;
 }
 
 /// Shaders see these fields as images and, where their BUFFERED variants write, as buffers.
@@ -104,6 +104,9 @@ std::vector<FieldRow> motion_rows() {
          [](Context c) { return bytes_of_list(c.topology.spring_shares()); }},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
+        {Field::tear_limits, "tear limits", image, vector, constant,
+         [](Context c) { return !c.cloth.tear_limits.empty(); }, particles,
+         [](Context c) { return bytes_of_list(c.cloth.tear_limits); }},
     };
 }
 

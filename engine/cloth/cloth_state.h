@@ -44,6 +44,7 @@ enum class Field : std::uint8_t {
     spring_share,              ///< share of the springs that a particle is the first of, by direction
     mass_share,                ///< mass over an inner particle's
     cells,                     ///< one texel per cell: bits 1 and 2 are set for the triangles that exist
+    tear_limits,               ///< what springs along row and column bear (cloth/tear.h)
     tension_row,               ///< per direction (tension_of), by first particle, m: extension that would balance the
     tension_column,            ///< tension applied in the substep; carried to the next one (line) or the next iteration
     tension_shear_down_right,  ///< (relax), and of stretch springs where the stretch error is wanted

@@ -123,6 +123,7 @@ CutCounts CutTopology::apply(const CutFindings& findings) {
     std::ranges::fill(tethers_, glsl::ParticleTethers{-1, -1, 0, 0});
     counts.triangles = split_triangles();
     rebuild_drawing();
+    counts.pieces = piece_count();
     counts.crumbs = crumb_count_;
     return counts;
 }
@@ -267,6 +268,13 @@ std::vector<std::size_t> CutTopology::pieces() const {
         }
     for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
     return parent;
+}
+
+std::uint32_t CutTopology::piece_count() const {
+    const std::vector<std::size_t> piece = pieces();
+    std::uint32_t count = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) count += piece[k] == k && cloth_->free_weight[k] > 0;
+    return count;
 }
 
 std::vector<bool> CutTopology::beside_cuts(const std::vector<std::size_t>& piece) const {

@@ -21,6 +21,8 @@ struct CutFindings {
 struct CutCounts {
     std::uint32_t springs = 0;    ///< cut now
     std::uint32_t triangles = 0;  ///< split now: gone from the whole ones
+    std::uint32_t torn = 0;       ///< of the springs, those that were torn
+    std::uint32_t pieces = 0;     ///< pieces that there are now, crumbs among them
     std::uint32_t crumbs = 0;     ///< crumbs that there are now
     bool any() const { return springs > 0; }
 };
@@ -62,6 +64,8 @@ class CutTopology {
     std::uint32_t crumb_count() const { return crumb_count_; }
     /// Returns for each particle the number of one particle of its piece, the same for all that springs hold together.
     std::vector<std::size_t> pieces() const;
+    /// Returns how many there are; particles without a cell are none.
+    std::uint32_t piece_count() const;
     /// Returns the fraction along an owned spring where it was cut; -1 when it was not.
     float cut_fraction(std::size_t particle, std::size_t direction) const;
 

@@ -68,6 +68,7 @@ double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& recor
 }
 
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {
+    if (model.scene.tears()) return 0;  // each of its frames ends with a search
     const double fps = model.scene.time.fps;
     const std::uint32_t end = std::max(model.scene.time.frame_count, frame + 1);
     std::uint32_t room = 0;

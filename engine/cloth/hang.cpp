@@ -85,8 +85,8 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     hang.gravity = length(strongest_gravity(scene));
     hang.acceleration = hang.gravity + wind_acceleration(scene, cloth, wind_speed);
     const int axis = axis_from_held_edge(cloth);
-    hang.by_an_edge = axis >= 0 && scene.colliders.empty() && scene.cutters.empty();
-    hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && scene.cutters.empty();
+    hang.by_an_edge = axis >= 0 && scene.colliders.empty() && !scene.comes_apart();
+    hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && !scene.comes_apart();
     hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
     hang.calm = hang.by_an_edge && !has_weather(scene);
     hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];

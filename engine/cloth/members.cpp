@@ -112,7 +112,7 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
         return "method auto gives each member substeps of its own: name the method that it chooses";
     if (model.has_companions()) return "companion runs estimate the error of each member";
     if (model.self_contact) return "contact between cloths works on all cloths of a scene at once";
-    if (!model.scene.cutters.empty()) return "cuts make the members' cloths differ";
+    if (model.scene.comes_apart()) return "cuts and tears make the members' cloths differ";
     if (!model.mesh_fields.empty()) return "distances to meshes are known as far as each member's contact asks";
     if (model.adaptive()) return "iterations end by the tolerance, in each member after a number of its own";
     return std::nullopt;

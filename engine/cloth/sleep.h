@@ -27,6 +27,9 @@ class Sleep {
     /// apart, and the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
     bool asleep(std::uint32_t frame);
 
+    /// Forgets what it saw: a cloth that tore will move.
+    void wake() { speeds_.clear(); }
+
     /// Writes or reads what changes, like SubstepControl's.
     template <class Archive>
     bool transfer(Archive& archive) {

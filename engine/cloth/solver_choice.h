@@ -12,10 +12,6 @@
 
 namespace drape {
 
-/// `auto` aims at this stretch error where the scene states none.
-inline constexpr double default_tolerance = 0.01;
-/// A single spring may have this stretch error.
-inline constexpr double default_tolerance_worst = 0.1;
 /// Returns the error that the motion may have where the scene states none, m/s: 0.02 of the longer side (m) a second.
 /// Cloth of less than a metre has 0.02 of what a metre has, times the root of its side over a metre: that is how speeds
 /// under gravity fall with size (Froude), so a model of a scene takes the substeps of the scene in the same motion.

@@ -116,7 +116,7 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
             start.held = start.held || (cloth.position[i].w == 0 && share[i] > 0);
         }
         for (double& each : start.mean) each /= std::max(mass, 1e-300);
-        start.held = start.held && !cloth.has_release && model.scene.cutters.empty();
+        start.held = start.held && !cloth.has_release && !model.scene.comes_apart();
         passive_ = passive_ && !cloth.has_motion;
         starts_.push_back(start);
     }

@@ -71,7 +71,7 @@ extern const OutputFormat mgn_format{
     .files = "trajectory.npz",
     .holds =
         "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
-        "cells [1, cell, 3], node_type [1, node, 1]; not with cutters",
+        "cells [1, cell, 3], node_type [1, node, 1]; not with cutters or tear",
     .follows_cuts = false,
     .frame_files = false,
     .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },

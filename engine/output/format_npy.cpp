@@ -43,7 +43,7 @@ class NpyFiles : public FrameWriter {
 extern const OutputFormat npy_format{.name = "npy",
                                      .files = "positions.npy",
                                      .holds =
-                                         "positions, float32 [frame, row, column, 3], metres; with cutters "
+                                         "positions, float32 [frame, row, column, 3], metres; with cuts "
                                          "faces_FRAME.npy too, int32 [face, 3], from that frame on",
                                      .frame_files = false,
                                      .frame_bytes = [](const FrameSize& frame) { return 12 * frame.particles; },

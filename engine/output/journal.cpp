@@ -16,7 +16,7 @@ namespace drape {
 namespace {
 
 constexpr std::string_view magic = "DRAPEJNL";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 // So many bytes wait in memory while there is no file, and once there is one.
 constexpr std::size_t most_before_file = std::size_t{8} << 20, most_behind_file = std::size_t{1} << 20;
 
@@ -24,7 +24,8 @@ template <class Archive, class Record>
 void transfer(Archive& archive, Record& record, std::uint32_t& kind) {
     archive(kind, record.frame);
     if (kind == static_cast<std::uint32_t>(JournalRecord::Kind::cut))
-        archive(record.cloth, record.springs, record.triangles, record.crumbs, record.faces);
+        archive(record.cloth, record.springs, record.torn, record.triangles, record.pieces, record.crumbs,
+                record.faces);
 }
 
 void put_values(ByteWriter& writer, const JournalRecord& record) {

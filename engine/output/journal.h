@@ -22,8 +22,9 @@ struct JournalRecord {
     FrameValues values{};  // only with a frame
     // Only with a frame, per cloth: x y z w of every particle; empty where no format needs them.
     std::vector<std::vector<float>> positions{}, velocities{};
-    std::uint32_t cloth = 0, springs = 0, triangles = 0, crumbs = 0;  // only with a cut
-    std::vector<std::uint32_t> faces{};                               // only with a cut
+    // Only with a cut.
+    std::uint32_t cloth = 0, springs = 0, torn = 0, triangles = 0, pieces = 0, crumbs = 0;
+    std::vector<std::uint32_t> faces{};
 };
 
 // Convert a record's content (engine/docs/checkpoint.md). decode_record throws Error when the bytes are none.

@@ -85,7 +85,9 @@ Json::Value cuts_json(const std::vector<Manifest::Cut>& cuts) {
         row["frame"] = Json::Int64{cut.frame};
         row["cloth"] = cut.cloth;
         row["springs"] = cut.spring_count;
+        row["torn"] = cut.torn_count;
         row["triangles"] = cut.triangle_count;
+        row["pieces"] = cut.piece_count;
         row["crumbs"] = cut.crumb_count;
         json.append(row);
     }
@@ -126,7 +128,7 @@ std::string proof_text(const Manifest::SelfCollision& told) {
 
 std::string certificate_of(const Manifest::SelfCollision& told) {
     if (told.not_covered.empty()) return proof_text(told);
-    return fmt::format("{}; not covered: {} that cutters split from frame {} on", proof_text(told),
+    return fmt::format("{}; not covered: {} that were split from frame {} on", proof_text(told),
                        triangles_text(told.not_covered), told.not_covered.front().first_frame);
 }
 
@@ -321,7 +323,9 @@ static std::span<const JsonRule> manifest_rules() {
         {"/cuts/*/cloth", text},
         {"/cuts/*/frame", whole_number},
         {"/cuts/*/springs", whole_number},
+        {"/cuts/*/torn", whole_number},
         {"/cuts/*/triangles", whole_number},
+        {"/cuts/*/pieces", whole_number},
         {"/cuts/*/crumbs", whole_number},
         {"/warnings", list},
         {"/files", list},

@@ -97,7 +97,9 @@ struct Manifest {
         std::int64_t frame = 0;
         std::string cloth;
         std::uint32_t spring_count = 0;    // cut
+        std::uint32_t torn_count = 0;      // of those, torn
         std::uint32_t triangle_count = 0;  // split
+        std::uint32_t piece_count = 0;     // pieces that there are now
         std::uint32_t crumb_count = 0;     // crumbs that there are now
     };
     struct FrameTime {  // wall-clock milliseconds per frame

@@ -13,7 +13,7 @@ namespace {
 /// than 64 MiB. Where cloth is cut these are only those in flight, as a cut asks for the pictures of all before it.
 std::size_t most_pending(const SimulationModel& model) {
     constexpr std::size_t most = 16, most_bytes = std::size_t{64} << 20;
-    if (!model.scene.cutters.empty()) return vulkan::frame_slot_count;
+    if (model.scene.comes_apart()) return vulkan::frame_slot_count;
     std::size_t bytes = 0;
     for (const ClothModel& cloth : model.cloths) bytes += cloth.grid.particle_count() * sizeof(float[4]);
     return std::clamp<std::size_t>(most_bytes / bytes, vulkan::frame_slot_count, most);

@@ -36,6 +36,7 @@ namespace drape::glsl {
 #include "include/self_ring.h"
 #include "include/spring.h"
 #include "include/statistics.h"
+#include "include/tear.h"
 #include "include/tether.h"
 #include "include/triangles.h"
 #include "include/vector.h"

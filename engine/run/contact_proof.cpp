@@ -68,7 +68,7 @@ std::optional<std::string> left_out_of_contact(const Manifest& manifest) {
     const bool of_edges = !manifest.off_collider_edges.empty();
     if (!of_cloths && !of_edges) return std::nullopt;
     const auto& split = of_cloths ? manifest.self_collision->not_covered : manifest.off_collider_edges;
-    return fmt::format("{} that cutters split from frame {} on {}; a finer grid makes the strip of them narrower",
+    return fmt::format("{} that were split from frame {} on {}; a finer grid makes the strip of them narrower",
                        triangles_text(split), split.front().first_frame,
                        of_cloths && of_edges ? "meet no cloth and no edge of a collider"
                        : of_cloths           ? "meet no cloth"

@@ -88,7 +88,9 @@ void Sink::add_cut(const Cut& cut) {
                                .frame = cut.frame,
                                .cloth = static_cast<std::uint32_t>(cut.cloth),
                                .springs = cut.springs,
+                               .torn = cut.torn,
                                .triangles = cut.triangles,
+                               .pieces = cut.pieces,
                                .crumbs = cut.crumbs,
                                .faces = cut.faces};
     if (journal_) journal_->add(record);
@@ -96,7 +98,8 @@ void Sink::add_cut(const Cut& cut) {
 }
 
 void Sink::repeat_cut(const JournalRecord& cut) {
-    cuts_.push_back({cut.frame, scene_.cloths.at(cut.cloth).name, cut.springs, cut.triangles, cut.crumbs});
+    cuts_.push_back(
+        {cut.frame, scene_.cloths.at(cut.cloth).name, cut.springs, cut.torn, cut.triangles, cut.pieces, cut.crumbs});
     for (const Writer& writer : writers_) writer.files->set_faces(cut.frame + 1, cut.cloth, cut.faces);
 }
 

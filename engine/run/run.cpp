@@ -17,7 +17,8 @@ namespace {
 std::string given_hash(const Cloth& cloth) {
     return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) + xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density)));
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_tear)));
 }
 
 std::string given_hash(const MeshShape& mesh) {

@@ -110,7 +110,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.end = static_cast<std::uint32_t>(manifest.frames.end);
     run.step = static_cast<std::uint32_t>(manifest.frames.step);
     run.fps = scene.time.fps;
-    run.cuts = !scene.cutters.empty();
+    run.cuts = scene.comes_apart();
     run.width = scene.image.size[0], run.height = scene.image.size[1];
     run.key = manifest.run_key;
     run.seed = scene.wind.gust.seed;

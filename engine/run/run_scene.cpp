@@ -31,9 +31,9 @@ void check_stream(const RunRequest& request) {
 void check_formats(const RunRequest& request, const SceneDescription& scene) {
     if (request.stream) check_stream(request);
     for (const OutputFormat* format : output_formats(request.formats))
-        if (!format->follows_cuts && !scene.cutters.empty())
-            throw UsageError(
-                fmt::format("--export {}: its faces cannot change, but the scene has cutters", format->name));
+        if (!format->follows_cuts && scene.comes_apart())
+            throw UsageError(fmt::format("--export {}: its faces cannot change, but the scene has {}", format->name,
+                                         scene.tears() ? "cloth that tears" : "cutters"));
 }
 
 bool needs_positions(const RunRequest& request) {
@@ -81,7 +81,7 @@ MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const Ru
 void expect_room(const OutputFolder& folder, const RunRequest& request, const SceneDescription& scene,
                  const FrameRange& range) {
     FrameSize size{.pixels = std::uint64_t{scene.image.size[0]} * scene.image.size[1]};
-    bool whole = scene.cutters.empty();
+    bool whole = !scene.comes_apart();
     for (const Cloth& cloth : scene.cloths) {
         const std::uint64_t columns = cloth.grid[0], rows = cloth.grid[1];
         size.particles += columns * rows;
@@ -285,7 +285,7 @@ void go_on_from(const RunCheckpoint& from, const RunParts& run, const FrameRange
 }
 
 /// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
-bool needs_every_frame(const SceneDescription& scene) { return !scene.cutters.empty() || cloths_meet(scene); }
+bool needs_every_frame(const SceneDescription& scene) { return scene.comes_apart() || cloths_meet(scene); }
 
 /// Simulates what is missing. Returns whether all is there.
 bool run_missing(const RunParts& run, const std::optional<RunCheckpoint>& from, const FrameRange& range) {

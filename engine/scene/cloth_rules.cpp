@@ -277,7 +277,8 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     note_fabric(members.object());
     for (std::size_t i = 0; i < cloth.holes.size(); ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
-    if (members.fit({"grid", "maps", "stiffness"})) fits = take_maps(members, cloth) && fits;
+    if (members.fit({"stiffness", "tear"})) fits = check_torn_cloth(members, cloth) && fits;
+    if (members.fit({"grid", "maps", "stiffness", "tear"})) fits = take_maps(members, cloth) && fits;
     if (fits && members.fit({"grid", "holes", "maps"}) && !leaves_a_cell(cloth))
         fits = members[members["holes"] ? "holes" : "maps"].fail(
             "expected holes that leave a cell of the cloth, got none left");
@@ -315,6 +316,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
+    if (members.fit({"cloths", "solver"})) check_tear_limits(node, scene);
     warn_of_doubts(members, scene);
     return !members.fit({"time", "gravity", "gravity_keys", "cloths", "solver"}) || check_fall(members, scene);
 }

@@ -131,14 +131,18 @@ bool take_maps(const Members& members, Cloth& cloth) {
         }
     };
     const std::vector<double> holes = values_of("holes"), stiffness = values_of("stiffness"),
-                              density = values_of("density");
+                              density = values_of("density"), tear = values_of("tear");
     if (!stiffness.empty() && cloth.stiffness.rigid)
         fits = node.member("stiffness").fail("expected springs with a stiffness, got stiffness \"rigid\"");
+    if (!tear.empty() && !members["tear"])
+        fits = node.member("tear").fail("expected a cloth with tear, whose limit the map scales, got one without");
     if (!fits) return false;
     MapFiles files;
     (void)node.member("stiffness_range").read(std::span<double>(files.stiffness_range), "", map_factor);
     (void)node.member("density_range").read(std::span<double>(files.density_range), "", map_factor);
+    (void)node.member("tear_range").read(std::span<double>(files.tear_range), "", map_factor);
     if (!holes.empty()) add_holes(holes, cloth);
+    if (!tear.empty()) cloth.cell_tear = factors(tear, files.tear_range, 1);
     take_factors(files, stiffness, density, cloth);
     return true;
 }

@@ -39,8 +39,8 @@ std::string_view no_release(const SceneDescription& scene) {
     return some_pin(scene, [](const Pin& pin) { return pin.release.has_value(); }) ? "" : "no pin is released";
 }
 
-std::string_view no_cutter(const SceneDescription& scene) {
-    return scene.cutters.empty() ? "the scene has no cutter" : "";
+std::string_view no_cut(const SceneDescription& scene) {
+    return scene.comes_apart() ? "" : "nothing of the scene is cut or torn";
 }
 
 std::string_view no_collider(const SceneDescription& scene) {
@@ -82,7 +82,7 @@ std::vector<OracleKind> kinds_of_shape() {
          no_collider},
         {"uncrossed",
          "In no frame does a triangle cross another one of its cloth or of another; where some cloths have "
-         "self_collision, those that have not may cross themselves. Triangles that a cutter split do not count.",
+         "self_collision, those that have not may cross themselves. Triangles that are split do not count.",
          {},
          nothing},
         {"supported",
@@ -150,13 +150,13 @@ std::vector<OracleKind> kinds_of_motion() {
           {"lag", "largest difference of their turns, degrees"}},
          no_sphere},
         {"cut_pieces",
-         "Something was cut, and so many pieces are left.",
+         "Something was cut or torn, and so many pieces are left.",
          {{"pieces", "of at least 1 % of the particles", true}},
-         no_cutter},
+         no_cut},
         {"mass_kept",
-         "Cutting changes neither mass nor area drawn.",
+         "Cutting and tearing change neither mass nor area drawn.",
          {{"relative_error", "largest share that is lost or gained"}},
-         no_cutter},
+         no_cut},
         {"stretch_law",
          "A sheet that hangs still by method relax has the strain of the law of docs/physics.md, section 2.",
          {{"relative_error", "largest error of mean and RMS strain"}},

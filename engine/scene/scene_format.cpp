@@ -178,6 +178,11 @@ const Object<MapFiles> maps{
         {"density", &MapFiles::density, without_default(text()), "File. It scales the areal density of each cell."},
         {"density_range", &MapFiles::density_range, two_numbers(map_factor),
          "Factors where the density map is 0 and where it is 1; between, in proportion."},
+        {"tear", &MapFiles::tear, without_default(text()),
+         "File. It scales the limit of tear; of a spring's two cells the weaker counts. A dark line is a seam that "
+         "rips."},
+        {"tear_range", &MapFiles::tear_range, two_numbers(map_factor),
+         "Factors where the tear map is 0 and where it is 1; between, in proportion."},
     }};
 
 /// Reads the maps' names; the rule of the cloth, which knows the grid, reads the files.
@@ -185,6 +190,19 @@ bool read_maps(const SceneNode& node, Cloth&) {
     MapFiles ignored;
     return maps.read(node, ignored);
 }
+
+const Object<Tear> tear{
+    "tear",
+    "Threads end, those along rows and those along columns, once the end of a frame finds them stretched too far or "
+    "pulled too hard; that acts from the next frame on. Exactly one of strain and tension says what they bear.",
+    {
+        {"strain", &Tear::strain, optional(number(positive)), "Change of a spring's length over its length at rest."},
+        {"tension", &Tear::tension, optional(number(positive)),
+         "N/m: what the springs of the model transmit through a line across the threads, diagonals too, over its "
+         "length. It does not depend on the grid."},
+    },
+    check_tear,
+    R"("oneOf": [{"required": ["strain"]}, {"required": ["tension"]}])"};
 
 const Object<Cloth> cloth{
     "cloth",
@@ -220,10 +238,14 @@ const Object<Cloth> cloth{
         {"self_collision", &Cloth::self_collision, true_or(self_collision),
          "Whether the cloth meets itself. Once one of a scene's cloths does, all of them meet each other, those "
          "without it as with its defaults. No triangle then passes through one that it meets in any substep; the "
-         "manifest says whether that was proved. Triangles that a cutter has split meet nothing. A cloth that meets "
+         "manifest says whether that was proved. Triangles that are split meet nothing. A cloth that meets "
          "itself may not start gathered on a line or in a point."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
-        {"maps", Value<MapFiles>(maps).text, read_maps, "Holes, stiffness and density from pictures. Absent: none."},
+        {"tear", &Cloth::tear, optional<Tear>(tear),
+         "What the cloth bears before it tears. Absent: whatever pulls at it. A tear is a line: it goes on from where "
+         "the cloth is torn or cut, and only in a piece where none goes on a new one begins."},
+        {"maps", Value<MapFiles>(maps).text, read_maps,
+         "Holes, stiffness, density and strength from pictures. Absent: none."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
         {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),

@@ -32,8 +32,9 @@ inline constexpr Range map_factor{1e-3, 1e3, false};
 
 /// The files that a cloth's maps are in, and their ranges; an empty name: there is none.
 struct MapFiles {
-    std::string holes, stiffness, density;
-    std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1};  ///< factors where a map is dark, and light
+    std::string holes, stiffness, density, tear;
+    /// Factors where a map is dark, and light.
+    std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1}, tear_range{0.1, 1};
 };
 /// Reads the start of a cloth whose grid and size are known, from the file that it names.
 bool take_start(const Members& members, Cloth& cloth);
@@ -56,6 +57,12 @@ bool check_placement(const Members& members, Placement& placement);
 bool check_pin(const Members& members, Pin& pin);
 /// Checks a cloth, and finds the particles of its pins' edges and corners.
 bool check_cloth(const Members& members, Cloth& cloth);
+bool check_tear(const Members& members, Tear& tear);
+/// Checks that a cloth that tears has springs that bear something.
+bool check_torn_cloth(const Members& members, const Cloth& cloth);
+/// Checks that no cloth tears by the error that the solver may make: one whose limit is below the stretch error is an
+/// error of the scene, one whose limit is below that of a single spring a warning.
+void check_tear_limits(const SceneNode& cloths, const SceneDescription& scene);
 /// Checks that there is room for the distances to all meshes.
 bool check_fields(const SceneNode& colliders, const SceneDescription& scene);
 /// Checks a scene, and names the nameless cloths.

@@ -256,7 +256,7 @@ void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const A
 }
 
 void FrameLoop::submit_output(std::uint32_t frame, Judged judged, bool wanted, const Finished& finished) {
-    const bool cutting = cutters_active_in(frame);
+    const bool cutting = !judged.effort.asleep && searched(frame);  // of what is asleep the last search holds
     if (!wanted && !cutting) return;
     const std::uint32_t slot = take_slot(finished);
     submit(slot, frame, !wanted ? FrameKind::search_cut : cutting ? FrameKind::output_cut : FrameKind::output, wanted);

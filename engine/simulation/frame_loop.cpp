@@ -6,8 +6,10 @@
 #include <bit>
 #include <cstring>
 
+#include "cloth/tear.h"
 #include "solver/cut_pass.h"
 #include "solver/readback_pass.h"
+#include "solver/tear_pass.h"
 
 namespace drape {
 
@@ -51,9 +53,10 @@ void FrameLoop::upload() {
 std::vector<FrameKind> FrameLoop::kinds() const {
     using enum FrameKind;
     std::vector<FrameKind> all{initial, simulate, simulate_and_output};
-    const bool cuts = !model_.scene.cutters.empty(), closed = model_.closed_loop();
-    if (cuts) all.push_back(initial_cut);
-    if (cuts && !closed) all.insert(all.end(), {simulate_cut, simulate_and_output_cut});
+    const bool cuts = model_.scene.comes_apart(), closed = model_.closed_loop();
+    if (!model_.scene.cutters.empty()) all.push_back(initial_cut);
+    if (cuts && !closed) all.push_back(simulate_cut);
+    if (cuts && (!closed || model_.scene.tears())) all.push_back(simulate_and_output_cut);  // `drape graph` shows it
     if (closed) all.push_back(output);
     if (cuts && closed) all.insert(all.end(), {output_cut, search_cut});
     return all;
@@ -107,24 +110,47 @@ bool FrameLoop::cutters_active_in(std::uint32_t frame) const {
     return cutters_active(model_.scene.cutters, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
 }
 
+bool FrameLoop::searched(std::uint32_t frame) const {
+    return (frame > 0 && model_.scene.tears()) || cutters_active_in(frame);
+}
+
+CutCounts FrameLoop::take_findings(std::size_t cloth, const CutFindings& cut, const std::vector<glsl::vec4>& loads) {
+    CutTopology& topology = solver_.topologies()[cloth];
+    CutCounts counts;
+    if (!cut.fractions.empty()) counts = topology.apply(cut);
+    if (loads.empty()) return counts;
+    const CutCounts torn = topology.apply(torn_springs(topology, loads));
+    if (torn.any()) sleep_.wake();
+    return {counts.springs + torn.springs, counts.triangles + torn.triangles, torn.springs,
+            torn.any() ? torn.pieces : counts.pieces, torn.any() ? torn.crumbs : counts.crumbs};
+}
+
 void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
     struct Hit {
         std::size_t cloth;
-        CutFindings findings;
+        CutFindings cut;
+        std::vector<glsl::vec4> loads;
         CutImages before;
+    };
+    const auto found = [&](const std::string& count_name) {
+        std::uint32_t count = 0;
+        if (pool_->has(count_name)) std::memcpy(&count, pool_->buffer(count_name, slot).mapped().data(), sizeof count);
+        return count > 0;
     };
     std::vector<Hit> hits;  // they are fetched before any resource changes
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const ClothModel& model = model_.cloths[cloth];
-        std::uint32_t crossed = 0;
-        std::memcpy(&crossed, pool_->buffer(cut_count_name(model), slot).mapped().data(), sizeof crossed);
-        if (crossed > 0) hits.push_back({cloth, read_findings(*pool_, model), solver_.cut_images(cloth)});
+        const bool crossed = found(cut_count_name(model)), overloaded = frame > 0 && found(tear_count_name(model));
+        if (!crossed && !overloaded) continue;
+        Hit& hit = hits.emplace_back(Hit{cloth, {}, {}, solver_.cut_images(cloth)});
+        if (crossed) hit.cut = read_findings(*pool_, model);
+        if (overloaded) hit.loads = read_tear_loads(*pool_, model);
     }
     bool new_resources = false;
     for (const Hit& hit : hits) {
         CutTopology& topology = solver_.topologies()[hit.cloth];
         new_resources = new_resources || !topology.masked();
-        const CutCounts counts = topology.apply(hit.findings);
+        const CutCounts counts = take_findings(hit.cloth, hit.cut, hit.loads);
         new_resources = new_resources || (options_.draw && draws_outgrown(hit.before, topology));
         if (options_.on_cut) options_.on_cut({frame, hit.cloth, counts}, topology);
     }
@@ -162,12 +188,16 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     const FrameNeeds wanted = needs(kind);
     solver_.declare(frame.graph, wanted, run);
     if (has.simulates) solver_.add_simulation(frame.graph);
-    if (has.searches_cuts) {
-        solver_.add_cuts(frame.graph);
-    } else {
+    const bool cuts = has.searches_cuts && !model_.scene.cutters.empty();
+    const bool tears = has.searches_cuts && model_.scene.tears() && kind != FrameKind::initial_cut;
+    if (cuts) solver_.add_cuts(frame.graph);
+    if (tears) solver_.add_tears(frame.graph);
+    if (!cuts)
         frame.graph.skip("cut search", model_.scene.cutters.empty() ? "no cutter in the scene"
                                                                     : "no cutter is active in this kind of frame");
-    }
+    if (!tears)
+        frame.graph.skip("tear search",
+                         model_.scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
     if (has.hands_out && (options_.draw || options_.normals)) solver_.add_normals(frame.graph);
     if (has.hands_out && options_.draw)
         raster_->add(frame.graph, raster_cloths(model_, solver_.cloths()));
@@ -357,7 +387,7 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
     for (; next_frame_ <= last; ++next_frame_) {
         const std::uint32_t frame = next_frame_;
         const bool output = wanted(frame);
-        const bool cutting = cutters_active_in(frame);
+        const bool cutting = searched(frame);
         // The initial state is already there.
         if (frame == 0 && !output && !cutting && !options_.on_passed_over) continue;
         if (stop && stop()) {

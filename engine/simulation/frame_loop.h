@@ -151,10 +151,14 @@ class FrameLoop {
     std::vector<FrameKind> kinds() const;
     FrameNeeds needs(FrameKind kind) const;
     bool cutters_active_in(std::uint32_t frame) const;
+    /// Returns whether the frame ends with a search for what the cutters cut, or for what tears.
+    bool searched(std::uint32_t frame) const;
     void build_graphs();
     void allocate_and_record();
     void record();
     void take_cuts(std::uint32_t slot, std::uint32_t frame);
+    /// Takes what a search found of a cloth into its topology.
+    CutCounts take_findings(std::size_t cloth, const CutFindings& cut, const std::vector<glsl::vec4>& loads);
     /// Fills what the device reads and nothing of it writes.
     void upload();
     void rebuild_resources(const SimulationState& state);

@@ -74,7 +74,7 @@ SimulationState FrameLoop::save() const {
         state[std::string(field_prefix) + name] = std::move(bytes);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const CutTopology& topology = solver_.topologies()[cloth];
-        if (!model_.scene.cutters.empty() && topology.masked())
+        if (model_.scene.comes_apart() && topology.masked())
             state[cuts_part(model_.cloths[cloth])] = cut_bytes(topology);
     }
     state[loop_part] = host_state();

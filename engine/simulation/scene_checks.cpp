@@ -34,6 +34,14 @@ bool has_factors(const Cloth& cloth, const std::vector<float>& factors, float le
                                std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
 }
 
+/// Returns whether what a cloth bears is a limit that its springs can come to.
+bool bears(const Cloth& cloth) {
+    const Tear& tear = *cloth.tear;
+    const double limit = tear.strain.value_or(0) + tear.tension.value_or(0);
+    return tear.strain.has_value() != tear.tension.has_value() && limit > 0 && std::isfinite(limit) &&
+           !cloth.stiffness.rigid && cloth.stiffness.stretch > 0;
+}
+
 }  // namespace
 
 const SceneDescription& checked_scene(const SceneDescription& scene) {
@@ -69,6 +77,10 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
                "a factor of at most 1, and not 0, for every cell");
         expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
                "a factor of at least 1 for every cell");
+        expect(has_factors(cloth, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
+               "a factor above 0 for every cell");
+        expect(!cloth.tear || bears(cloth), at + "/tear",
+               "either a strain or a tension above 0, of springs that are not rigid");
     }
     expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
     expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");

@@ -97,8 +97,8 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     if (wanted.on_cut)
         options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
             const CutCounts& counts = event.counts;
-            on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.crumbs,
-                    topology.whole_triangles()});
+            on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.torn, counts.pieces,
+                    counts.crumbs, topology.whole_triangles()});
         };
     return options;
 }
@@ -179,7 +179,8 @@ struct Simulation::Parts {
     };
     /// Returns what a frame takes that is handed out: one graph, or two, one per device.
     std::vector<Planned> output() const {
-        constexpr FrameKind kind = FrameKind::simulate_and_output;
+        const FrameKind kind =
+            model.scene.tears() ? FrameKind::simulate_and_output_cut : FrameKind::simulate_and_output;
         std::vector<Planned> all{{loop.graph(kind), loop.plan(kind)}};
         if (pictures) all.push_back({pictures->graph(), pictures->plan()});
         return all;

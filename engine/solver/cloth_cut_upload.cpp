@@ -190,6 +190,7 @@ std::vector<std::byte> ClothSolver::start_of_field(std::size_t cloth, Field fiel
 
 void ClothSolver::write_cutters(const graph::ResourcePool& pool, std::uint32_t slot, double frame_start,
                                 double frame_end) const {
+    if (model_.scene.cutters.empty()) return;
     const std::vector<glsl::CutterTriangle> triangles = cutter_triangles(model_.scene.cutters, frame_start, frame_end);
     const std::span<const std::byte> bytes = std::as_bytes(std::span(triangles));
     std::memcpy(pool.buffer(cutters_name, slot).mapped().data(), bytes.data(), bytes.size());

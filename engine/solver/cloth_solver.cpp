@@ -18,6 +18,7 @@
 #include "solver/readback_pass.h"
 #include "solver/statistics_pass.h"
 #include "solver/step_row.h"
+#include "solver/tear_pass.h"
 
 namespace drape {
 
@@ -228,6 +229,12 @@ void ClothSolver::add_cuts(graph::Graph& graph) {
     const std::size_t count = model_.scene.cutters.size();
     const graph::Handle cutters = declare_cutters(graph, count);
     for_each_cloth([&](ClothState& state) { add_cut(graph, pipelines_, state, cutters, count); });
+}
+
+void ClothSolver::add_tears(graph::Graph& graph) {
+    for_each_cloth([&](ClothState& state) {
+        if (!state.model->tear_limits.empty()) add_tear(graph, pipelines_, state);
+    });
 }
 
 void ClothSolver::add_positions(graph::Graph& graph) {

@@ -72,6 +72,8 @@ class ClothSolver {
     std::vector<double> differences(const graph::ResourcePool& pool, std::uint32_t slot) const;
     /// Adds the search for springs and triangles that the cutters cross.
     void add_cuts(graph::Graph& graph);
+    /// Adds the search for springs that bear too much.
+    void add_tears(graph::Graph& graph);
     /// The newest handles since `declare`.
     const std::vector<ClothState>& cloths() const { return cloths_; }
 

@@ -18,6 +18,17 @@ graph::Handle declare_cutters(graph::Graph& graph, std::size_t cutter_count) {
                                               graph::Lifetime::host_input);
 }
 
+graph::Handle add_cleared_count(graph::Graph& graph, const graph::PassName& pass, const std::string& name) {
+    graph::Handle count = graph.buffer<glsl::uint>(name, 1, graph::Lifetime::host_output);
+    const auto cleared = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
+    graph.add_pass(
+        pass, [&](graph::PassSetup& setup) { *cleared = count = setup.write(count, Access::transfer_write); },
+        [cleared](graph::PassContext& context) {
+            vkCmdFillBuffer(context.commands(), context.buffer(*cleared).handle(), 0, VK_WHOLE_SIZE, 0);
+        });
+    return count;
+}
+
 void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle cutters,
              std::size_t cutter_count) {
     const ClothModel& model = *state.model;
@@ -26,14 +37,7 @@ void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph
                                        grid.rows() - 1, VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     graph::Handle fractions = graph.image({cut_fractions_name(model), VK_FORMAT_R32G32B32A32_SFLOAT, grid.columns(),
                                            grid.rows(), VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
-    graph::Handle count = graph.buffer<glsl::uint>(cut_count_name(model), 1, graph::Lifetime::host_output);
-    const auto cleared = std::make_shared<graph::Handle>();  // set by set-up, used when recorded
-    graph.add_pass(
-        state.pass_name("cut count clear", "cut"),
-        [&](graph::PassSetup& setup) { *cleared = count = setup.write(count, Access::transfer_write); },
-        [cleared](graph::PassContext& context) {
-            vkCmdFillBuffer(context.commands(), context.buffer(*cleared).handle(), 0, VK_WHOLE_SIZE, 0);
-        });
+    graph::Handle count = add_cleared_count(graph, state.pass_name("cut count clear", "cut"), cut_count_name(model));
     const vulkan::ComputePipeline& pipeline =
         pipelines.get(vulkan::variant_name("cut.comp", {{"masked", state.masked()}}));
     const int triangles = static_cast<int>(cutter_count) * glsl::cutter_triangle_count;

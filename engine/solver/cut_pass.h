@@ -15,6 +15,9 @@ inline constexpr const char* cutters_name = "cutters";
 /// Declares the cutters' host input: cutter_triangle_count triangles per cutter.
 graph::Handle declare_cutters(graph::Graph& graph, std::size_t cutter_count);
 
+/// Adds a pass that clears a count, one uint per frame slot, which a later pass adds to. Returns the count.
+graph::Handle add_cleared_count(graph::Graph& graph, const graph::PassName& pass, const std::string& name);
+
 /// Reads position (and stiffness and cells of a cloth that has them) and the cutters; writes flags, fractions and
 /// the count.
 void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph::Handle cutters,

@@ -195,7 +195,7 @@ Verdict released(const SceneRun& run, const Limits& limits) {
 
 /// Something was cut, and so many pieces are left in the end.
 Verdict cut_pieces(const SceneRun& run, const Limits& limits) {
-    if (run.cuts.empty()) return {false, "the scene has no cutters"};
+    if (run.cuts.empty()) return {false, "nothing of the scene is cut or torn"};
     std::size_t springs = 0;
     for (const CutRecord& cut : run.cuts) springs += cut.springs;
     return {springs > 0 && run.cuts.back().pieces == limits.index("pieces"),
@@ -285,8 +285,8 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
-/// No triangle crosses another one, except within a cloth that does not meet itself where others do. A triangle that a
-/// cutter split meets nothing.
+/// No triangle crosses another one, except within a cloth that does not meet itself where others do. A triangle that
+/// was split meets nothing.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
     const std::vector<Cloth>& cloths = run.scene.cloths;
     const bool asked = cloths_meet(run.scene);
@@ -312,7 +312,7 @@ Verdict uncrossed(const SceneRun& run, const Limits&) {
         const std::size_t crossings = TriangleCrossings(meshes).count(counts);
         if (crossings > worst) worst = crossings, worst_frame = frame;
     }
-    const std::string exception = split > 0 ? fmt::format("; {} that cutters split do not count", split) : "";
+    const std::string exception = split > 0 ? fmt::format("; {} that were split do not count", split) : "";
     return {worst == 0, fmt::format("{} pairs of triangles cross, most in frame {}{}", worst, worst_frame, exception)};
 }
 

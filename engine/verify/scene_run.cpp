@@ -53,7 +53,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };
-    for (std::size_t cloth = 0; cloth < model.cloths.size() && !scene.cutters.empty(); ++cloth) {
+    for (std::size_t cloth = 0; cloth < model.cloths.size() && scene.comes_apart(); ++cloth) {
         run.cuts.push_back(cut_record(0, cloth, 0, CutTopology(model.cloths[cloth])));
     }
     FrameLoop loop(device, model, options);

@@ -1,4 +1,4 @@
-// Structs of the cut pass and of the drawing of cut edges, shared by GLSL and C++, in std430.
+// Structs of the cut and tear passes and of the drawing of cut edges, shared by GLSL and C++, in std430.
 #ifndef DRAPE_CUT_TYPES_H
 #define DRAPE_CUT_TYPES_H
 
@@ -21,6 +21,14 @@ struct CutPush {
     ivec2 grid;          // columns, rows
     int triangle_count;  // in the cutter buffer
     int unused;
+};
+
+struct TearPush {
+    ivec2 grid;           // columns, rows
+    float rest_row;       // m, of springs along a row
+    float rest_column;    // m
+    float rest_diagonal;  // m
+    float compression;    // share of a diagonal's force where it is pushed together
 };
 
 /// A vertex on a cut spring (or inside a shattered triangle), drawn with the side it belongs to. Its position is

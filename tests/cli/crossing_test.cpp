@@ -110,7 +110,7 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
     ASSERT_EQ(manifest["cuts"].size(), 1u);
     const Json::Value count = manifest["cuts"][0]["triangles"];
     EXPECT_GE(count.asUInt(), 8u);
-    const std::string split = count.asString() + " triangles of cloth 'sheet' that cutters split from frame 6 on";
+    const std::string split = count.asString() + " triangles of cloth 'sheet' that were split from frame 6 on";
     EXPECT_TRUE(contact["proved"].asBool());
     EXPECT_EQ(contact["certificate"].asString(),
               "no crossing of whole triangles in any substep; not covered: " + split);
@@ -140,7 +140,7 @@ TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
 
 TEST(Crossings, AreCountedByClothFromTheFirstFrameOn) {
     const std::vector<Manifest::Cut> cuts{
-        {3, "a", 2, 0, 0}, {4, "b", 9, 5, 0}, {7, "a", 3, 1, 0}, {8, "b", 9, 6, 0}, {9, "a", 3, 4, 0}};
+        {3, "a", 2, 0, 0, 1}, {4, "b", 9, 0, 5, 1}, {7, "a", 3, 3, 1, 1}, {8, "b", 9, 0, 6, 2}, {9, "a", 3, 0, 4, 1}};
     const auto split = split_triangles(cuts, 9);
     ASSERT_EQ(split.size(), 2u);
     EXPECT_EQ(split[0].cloth, "b");

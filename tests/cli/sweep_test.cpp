@@ -194,6 +194,10 @@ TEST_F(Sweep, ItsDataSetOpensInPython) {
     const Outcome cut = sweep({"--dataset", "--resume"}, "other");
     EXPECT_EQ(cut.code, 2);
     EXPECT_THAT(cut.err, HasSubstr("the scene has cutters"));
+    write_text(folder / "scene.json", R"({"cloths": [{"tear": {"strain": 0.5}}], "gravity": [0, 0, 0]})");
+    const Outcome torn = sweep({"--dataset", "--resume"}, "torn");
+    EXPECT_EQ(torn.code, 2);
+    EXPECT_THAT(torn.err, HasSubstr("the scene has cloth that tears"));
 }
 
 TEST_F(Sweep, TextInItsTableIsNoFormulaAndHoldsNoControlCharacter) {

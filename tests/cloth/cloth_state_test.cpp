@@ -11,7 +11,7 @@
 namespace drape {
 namespace {
 
-/// Asks for as many fields as one scene can: holes, pins of all sorts, tethers, wind, a tolerance, cutters.
+/// Asks for as many fields as one scene can: holes, pins of all sorts, tethers, wind, a tolerance, cutters, tearing.
 SceneDescription demanding(SolverMethod method) {
     SceneDescription scene = test::sheet(9, 7, 1, 1, 4, 3);
     scene.solver.method = method;
@@ -21,6 +21,7 @@ SceneDescription demanding(SolverMethod method) {
     scene.cutters.emplace_back();
     Cloth& cloth = scene.cloths[0];
     cloth.stiffness = {false, 800, 60, 0.01};
+    cloth.tear = Tear{.strain = {}, .tension = 200};
     cloth.holes = {{{3, 3}, {5, 5}}};
     Pin released = test::pin_box(0, 0, 0, 0);
     released.release = 0.5;

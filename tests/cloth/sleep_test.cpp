@@ -87,6 +87,17 @@ TEST(SleepTest, AllThatChangesIsNotQuiet) {
     EXPECT_FALSE(is_quiet(gusty, 1));
 }
 
+TEST(SleepTest, WhatToreSleepsOnlyAfterASecond) {
+    const SimulationModel model(hanging());
+    Sleep sleep(model);
+    std::uint32_t frame = 1;
+    for (; !sleep.asleep(frame); ++frame) sleep.saw({moving_at(1e-4)}, 4);
+    sleep.wake();
+    const std::uint32_t woken = frame;
+    for (; !sleep.asleep(frame); ++frame) sleep.saw({moving_at(1e-4)}, 4);
+    EXPECT_EQ(frame - woken, woken - 1);
+}
+
 TEST(SleepTest, WhatHasMovedSleepsAgainOnlyAfterASecond) {
     SceneDescription scene = hanging();
     scene.colliders = {{Sphere{}}};

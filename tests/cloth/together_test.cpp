@@ -98,6 +98,8 @@ TEST(TogetherTest, CutsOwnIterationsSelfContactAndSizeKeepThemApart) {
     };
     EXPECT_FALSE(alone([](SceneDescription&) {}));
     EXPECT_TRUE(alone([](SceneDescription& s) { s.cutters.emplace_back(); }));
+    EXPECT_TRUE(
+        alone([](SceneDescription& s) { s.cloths[0].tear = s.cloths[1].tear = Tear{.strain = 1, .tension = {}}; }));
     EXPECT_TRUE(alone([](SceneDescription& s) { s.solver.tolerance = 0.1, s.solver.iterations = 2; }));
     EXPECT_TRUE(alone([](SceneDescription& s) { s.cloths[1].self_collision.emplace(); }));
     EXPECT_TRUE(alone([](SceneDescription& s) {

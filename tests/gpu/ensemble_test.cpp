@@ -237,6 +237,7 @@ TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
         {"/solver/method=\"auto\"", "/solver/tolerance_motion=1"},
         {"/cloths/0/self_collision={}"},
         {"/cutters=[{\"triangle\": [[-1, 0.7, -1], [1, 0.7, -1], [0, 0.7, 2]], \"active\": [0.02, 0.05]}]"},
+        {"/cloths/0/tear={\"strain\": 0.02}"},
         {"/solver/estimate_error=true"},
         {"/colliders/meshes=[{\"file\": \"" DRAPE_SOURCE_DIR
          "/tests/scene/box.obj\", \"scale\": 0.3, \"position\": [-0.3, 0.6, 0.1]}]"}};

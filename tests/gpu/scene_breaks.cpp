@@ -48,7 +48,10 @@ void never_released(SceneDescription& scene) {
 void no_self_collision(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
 }
-void never_cut(SceneDescription& scene) { scene.cutters.clear(); }
+void never_cut(SceneDescription& scene) {
+    scene.cutters.clear();
+    for (Cloth& cloth : scene.cloths) cloth.tear.reset();
+}
 
 void pins_let_go(SimulationModel& model) {
     for (ClothModel& cloth : model.cloths)
@@ -107,6 +110,7 @@ const std::vector<SceneBreak>& scene_breaks() {
         {"stack", "penetration", "no collision", 16, no_collision},
         {"stack", "uncrossed", "no self-collision", 30, no_self_collision},
         {"swinging_blade", "uncrossed", "no self-collision", 82, no_self_collision},
+        {"torn_banner", "uncrossed", "no self-collision", 46, no_self_collision},
         {"twist", "pins_follow", "key-framed pins stay", 20, pins_stay},
         {"twist", "uncrossed", "no self-collision", 60, no_self_collision},
         {"two_cloths", "falls", "gravity 1 % too strong", 4, gravity_one_percent_off},

@@ -103,7 +103,7 @@ TEST(SceneOracleUncrossedTest, CountsTrianglesToTheEndOfTheFrameThatSplitsThem) 
     EXPECT_FALSE(verify::judge(cut_in_frame_1(1), {"uncrossed", {}}).met);
     const verify::Verdict after = verify::judge(cut_in_frame_1(2), {"uncrossed", {}});
     EXPECT_TRUE(after.met) << after.text;
-    EXPECT_TRUE(after.text.ends_with("; 2 that cutters split do not count")) << after.text;
+    EXPECT_TRUE(after.text.ends_with("; 2 that were split do not count")) << after.text;
 }
 
 }  // namespace

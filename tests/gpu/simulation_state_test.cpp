@@ -183,6 +183,15 @@ std::string with_method(std::string text, const std::string& method) {
 }
 const std::string cut_by_auto = with_method(cut_scene, "\"auto\"");
 const std::string cut_by_line = with_method(cut_scene, "\"line\", \"substeps\": 5");
+// The lower edge is drawn away until the cloth rips, from a nick on.
+constexpr const char* torn_scene = R"({"time": {"fps": 60, "frames": 41}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"grid": [14, 12], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "tear": {"tension": 160},
+              "holes": [[[0, 5], [2, 6]]],
+              "pins": [{"edge": "top"}, {"edge": "bottom", "path": [{"t": 0}, {"t": 0.6, "translate": [0.1, -0.12, 0.1]}]}]},
+             {"grid": [8, 9], "size": [0.3, 0.4], "placement": {"origin": [0.1, 1, 0.5]}, "pins": [{"edge": "top"}]}],
+  "solver": {"method": %s}})";
+const std::string torn_by_auto = with_method(torn_scene, "\"auto\"");
+const std::string torn_by_line = with_method(torn_scene, "\"line\", \"substeps\": 5");
 constexpr const char* named_scene = R"({"time": {"fps": 60, "frames": 21},
   "cloths": [{"grid": [16, 13], "size": [0.5, 0.4], "placement": {"origin": [0, 1, 0]}, "stiffness": {"stretch": 500, "shear": 50, "bend": 1e-4},
               "pins": [{"corner": "top_left"}, {"corner": "top_right"}]}],
@@ -226,17 +235,17 @@ constexpr const char* passed_scene = R"({"time": {"fps": 60, "frames": 49},
 const std::string passed_by_lines = with_method(passed_scene, "\"line\", \"substeps\": 4");
 const std::string passed_by_auto = with_method(passed_scene, "\"auto\"");
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SimulationStateTest,
-                         testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene},
-                                         Case{"Asleep", sleeping_scene}, Case{"CutByAuto", cut_by_auto.c_str(), true},
-                                         Case{"CutByLine", cut_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
-                                         Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
-                                         Case{"Alike", alike_scene, true},
-                                         Case{"WeatherByAuto", weather_by_auto.c_str()},
-                                         Case{"WeatherByLines", weather_by_lines.c_str()},
-                                         Case{"PassedByLines", passed_by_lines.c_str()},
-                                         Case{"PassedByAuto", passed_by_auto.c_str()}),
-                         [](const auto& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SimulationStateTest,
+    testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene},
+                    Case{"Asleep", sleeping_scene}, Case{"CutByAuto", cut_by_auto.c_str(), true},
+                    Case{"CutByLine", cut_by_line.c_str(), true}, Case{"TornByAuto", torn_by_auto.c_str(), true},
+                    Case{"TornByLine", torn_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
+                    Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
+                    Case{"Alike", alike_scene, true}, Case{"WeatherByAuto", weather_by_auto.c_str()},
+                    Case{"WeatherByLines", weather_by_lines.c_str()}, Case{"PassedByLines", passed_by_lines.c_str()},
+                    Case{"PassedByAuto", passed_by_auto.c_str()}),
+    [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     const auto simulation_of = [](const std::string& text) {

@@ -197,6 +197,18 @@ TEST_F(GivenFiles, FactorsAreThoseOfTheRange) {
     EXPECT_EQ(cloth.cell_density, (std::vector<float>{1, 5.5f, 10, 10, 10, 10}));
 }
 
+TEST_F(GivenFiles, ASeamBearsItsShare) {
+    write_text(folder_ / "map.npy", npy_of("<f8", "2, 3", std::vector<double>{1, 0.5, 1, 1, 0, 1}));
+    const SceneResult result = read(R"("tear": {"strain": 0.5}, "maps": {"tear": "map.npy"})");
+    EXPECT_EQ(result.scene->cloths[0].cell_tear, (std::vector<float>{1, 0.55f, 1, 1, 0.1f, 1}));
+    ASSERT_EQ(result.warnings.size(), 1u) << "single springs may err by 0.1";
+    EXPECT_THAT(result.warnings[0].text(), HasSubstr("/cloths/0/tear: the cloth tears at a strain of 0.05"));
+    EXPECT_THAT(errors(R"("tear": {"strain": 0.05}, "maps": {"tear": "map.npy"})"),
+                ElementsAre(HasSubstr("/cloths/0/tear: expected a limit above the stretch error")));
+    EXPECT_THAT(errors(R"("tear": {"strain": 0.5}, "maps": {"tear": "map.npy", "tear_range": [0, 1]})"),
+                ElementsAre(HasSubstr("/tear_range/0: expected a number in [0.001, 1000], got 0")));
+}
+
 TEST_F(GivenFiles, WhatIsWrongWithAMapIsSaidWhereItIsNamed) {
     EXPECT_THAT(errors(R"("maps": {"holes": "none.png", "density": "x.gif"})"),
                 ElementsAre(AllOf(HasSubstr(":2:19: /cloths/0/maps/holes: cannot read"), HasSubstr("No such file")),

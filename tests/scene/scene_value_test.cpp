@@ -63,6 +63,8 @@ TEST(SceneValues, ClothOfTheFullScene) {
     ASSERT_EQ(cloth.holes.size(), 1u);
     EXPECT_EQ(cloth.holes[0], (IndexBox{{40, 20}, {50, 30}}));
     EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}}));
+    EXPECT_EQ(scene.cloths[2].tear, (Tear{{}, 300.0}));
+    EXPECT_EQ(scene.cloths[3].tear, (Tear{0.4, {}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
 }
@@ -82,6 +84,7 @@ TEST(SceneValues, FilesOfTheFullScene) {
     EXPECT_EQ(mapped.cell_stiffness, (std::vector<float>{0.25f, 1, 1, 1, 1, 0.55f, 1, 0.25f}));
     EXPECT_EQ(mapped.areal_density, 0.5 * Cloth{}.areal_density) << "the lightest cell's";
     EXPECT_EQ(mapped.cell_density, (std::vector<float>{6, 1, 1, 1, 1, 4, 1, 6}));
+    EXPECT_EQ(mapped.cell_tear, (std::vector<float>{0.25f, 1.5f, 1.5f, 1.5f, 1.5f, 0.75f, 1.5f, 0.25f}));
 }
 
 TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "cloth/tear.h"
 #include "reference/cut_twin.h"
+#include "reference/tear_twin.h"
 #include "reference/twin.h"
 
 namespace drape::test {
@@ -17,7 +19,18 @@ class TwinWithCuts {
         if (frame > 0) twin_.run_frame(frame);
         const double fps = model_.scene.time.fps, start = frame == 0 ? 0 : (frame - 1) / fps, end = frame / fps;
         CutCounts sum;
-        if (!cutters_active(model_.scene.cutters, start, end)) return sum;
+        if (cutters_active(model_.scene.cutters, start, end)) cut(start, end, sum);
+        for (std::size_t cloth = 0; frame > 0 && cloth < model_.cloths.size(); ++cloth)
+            if (!model_.cloths[cloth].tear_limits.empty()) tear(cloth, sum);
+        return sum;
+    }
+    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth)[Field::position]; }
+    const CutTopology& topology(std::size_t cloth) { return twin_.topology(cloth); }
+    const SimulationModel& model() const { return model_; }
+    Twin& twin() { return twin_; }
+
+  private:
+    void cut(double start, double end, CutCounts& sum) {
         const std::vector<glsl::CutterTriangle> cutters = cutter_triangles(model_.scene.cutters, start, end);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
             CutTopology& topology = twin_.topology(cloth);
@@ -29,14 +42,17 @@ class TwinWithCuts {
             sum.springs += counts.springs;
             sum.triangles += counts.triangles;
         }
-        return sum;
     }
-    const std::vector<glsl::vec4>& position(std::size_t cloth) const { return twin_.cloth(cloth)[Field::position]; }
-    const CutTopology& topology(std::size_t cloth) { return twin_.topology(cloth); }
-    const SimulationModel& model() const { return model_; }
-    Twin& twin() { return twin_; }
+    void tear(std::size_t cloth, CutCounts& sum) {
+        CutTopology& topology = twin_.topology(cloth);
+        const std::vector<glsl::vec4> loads = tear_loads(topology, position(cloth));
+        if (std::ranges::none_of(loads, [](const glsl::vec4& load) { return load.x > 1 || load.y > 1; })) return;
+        const CutCounts counts = topology.apply(torn_springs(topology, loads));
+        sum.springs += counts.springs;
+        sum.torn += counts.springs;
+        sum.triangles += counts.triangles;
+    }
 
-  private:
     SimulationModel model_;
     Twin twin_;
 };

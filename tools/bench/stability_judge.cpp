@@ -81,7 +81,7 @@ StabilityJudge::StabilityJudge(const SimulationModel& model) : model_(model) {
         }
         for (double& component : start.mean) component /= std::max(start.mass, 1e-300);
         start.mass *= cloth.inner_mass;
-        start.held = start.held && !cloth.has_release && scene.cutters.empty();
+        start.held = start.held && !cloth.has_release && !scene.comes_apart();
         start.edge = std::min(cloth.spacing[0], cloth.spacing[1]);
         start.held_strain = held_strain(cloth);
         const Cloth& described = scene.cloths[starts_.size()];

@@ -278,8 +278,9 @@ std::string list(const sweep::SweepSpec& spec) {
 void check_scene(const sweep::SweepSpec& spec, bool dataset) {
     SceneResult result = read_scene(spec.scene, spec.overrides_of(0));
     if (!result.scene) throw SceneFailure(std::move(result));
-    if (dataset && !result.scene->cutters.empty())
-        throw UsageError("--dataset: the cells of a trajectory cannot change, but the scene has cutters");
+    if (dataset && result.scene->comes_apart())
+        throw UsageError(fmt::format("--dataset: the cells of a trajectory cannot change, but the scene has {}",
+                                     result.scene->tears() ? "cloth that tears" : "cutters"));
 }
 
 ExitCode run(const SweepOptions& options) {

@@ -99,24 +99,29 @@ std::string differences(const RunFolder& a, const RunFolder& b) {
 std::string cuts(const Json::Value& list) {
     struct Sum {
         Json::Int64 first, last;
-        Json::UInt64 springs, triangles, crumbs;
+        Json::UInt64 springs, torn, triangles, crumbs;
     };
     std::map<std::string, Sum> sums;
     for (const Json::Value& cut : list) {
         const Json::Int64 frame = cut["frame"].asInt64();
-        Sum& sum = sums.try_emplace(cut["cloth"].asString(), Sum{frame, frame, 0, 0, 0}).first->second;
+        Sum& sum = sums.try_emplace(cut["cloth"].asString(), Sum{frame, frame, 0, 0, 0, 0}).first->second;
         sum.first = std::min(sum.first, frame);
         sum.last = std::max(sum.last, frame);
         sum.springs += cut["springs"].asUInt64();
+        sum.torn += cut["torn"].asUInt64();
         sum.triangles += cut["triangles"].asUInt64();
         sum.crumbs = cut["crumbs"].asUInt64();  // those there are
     }
     std::string html;
     for (const auto& [cloth, sum] : sums)
         html += fmt::format(
-            "<p>Cloth '{}' was cut in frames {} to {}: {} springs and {} triangles; "
+            "<p>Cloth '{}' was {} in frames {} to {}: {} springs and {} triangles; "
             "{} of its pieces are crumbs of less than four triangles.</p>\n",
-            xml_text(cloth), sum.first, sum.last, sum.springs, sum.triangles, sum.crumbs);
+            xml_text(cloth),
+            sum.torn == 0             ? "cut"
+            : sum.torn == sum.springs ? "torn"
+                                      : "cut and torn",
+            sum.first, sum.last, sum.springs, sum.triangles, sum.crumbs);
     return html;
 }
 

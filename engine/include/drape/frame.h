@@ -69,6 +69,8 @@ struct Cut {
     std::uint32_t frame = 0;
     std::size_t cloth = 0;
     std::uint32_t springs = 0, triangles = 0;  ///< cut and split in this frame
+    std::uint32_t torn = 0;                    ///< of the springs, those that bore too much, and the diagonals between
+    std::uint32_t pieces = 0;                  ///< that there are now, crumbs among them
     std::uint32_t crumbs = 0;                  ///< pieces that now have less than four triangles of the grid
     std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is drawn whole
 };

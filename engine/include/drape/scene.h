@@ -156,6 +156,14 @@ enum class ContactOf { surface, particles };
 inline constexpr Spelling<ContactOf> contact_spellings[] = {{"surface", ContactOf::surface},
                                                             {"particles", ContactOf::particles}};
 
+/// A spring along a row or column ends once it bears more than this (engine/docs/physics.md 8). One of the two is
+/// given.
+struct Tear {
+    std::optional<double> strain;   ///< m/m
+    std::optional<double> tension;  ///< N/m: force per width of the cloth
+    bool operator==(const Tear&) const = default;
+};
+
 struct Cloth {
     std::string name;
     std::array<std::uint32_t, 2> grid{2, 2};  ///< particles: columns, rows
@@ -174,6 +182,8 @@ struct Cloth {
     std::vector<IndexBox> holes;                  ///< boxes of particle indices whose inner cells are missing
     /// Factors of every cell, row by row; empty: 1. The stiffness is at most, the density at least what the cloth says.
     std::vector<float> cell_stiffness, cell_density;
+    std::optional<Tear> tear;      ///< nothing: it holds whatever pulls at it
+    std::vector<float> cell_tear;  ///< factors of what every cell bears, row by row; empty: 1
     std::vector<Pin> pins;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;
@@ -260,6 +270,11 @@ inline constexpr Spelling<CollideWhen> collide_spellings[] = {{"iteration", Coll
 enum class Overlap { resolve, refuse };
 inline constexpr Spelling<Overlap> overlap_spellings[] = {{"resolve", Overlap::resolve}, {"refuse", Overlap::refuse}};
 
+/// `auto` aims at this stretch error where the scene states none.
+inline constexpr double default_tolerance = 0.01;
+/// A single spring may have this stretch error.
+inline constexpr double default_tolerance_worst = 0.1;
+
 struct SolverSettings {
     SolverMethod method = SolverMethod::automatic;  ///< solver_choice.h resolves `auto`
     std::uint32_t substeps = 20;
@@ -330,6 +345,11 @@ struct SceneDescription {
     Vec3 ambient_ground{0.20, 0.17, 0.14};                    ///< light of the ground, in the same unit
     ImageSettings image;
     std::vector<Oracle> oracles;
+    bool tears() const {
+        return std::ranges::any_of(cloths, [](const Cloth& cloth) { return cloth.tear.has_value(); });
+    }
+    /// Returns whether springs and triangles may end.
+    bool comes_apart() const { return !cutters.empty() || tears(); }
     bool operator==(const SceneDescription&) const = default;
 };
 

@@ -1,0 +1,44 @@
+#include "reference/tear_twin.h"
+
+#include "cloth/tear.h"
+#include "cloth/texels.h"
+#include "reference/kernels.h"
+
+namespace drape {
+
+using namespace glsl;
+
+std::vector<vec4> tear_loads(const CutTopology& topology, const std::vector<vec4>& position) {
+    const ClothGeometry& cloth = topology.cloth();
+    const TearPush push = tear_push(cloth);
+    const auto place = [&](int x, int y) { return at(cloth.grid, {x, y}); };
+    const auto particle = [&](int x, int y) { return xyz(position[place(x, y)]); };
+    const auto shares = [&](int x, int y) {
+        return topology.masked() ? topology.spring_shares()[place(x, y)] : vec4{1, 1, 1, 1};
+    };
+    const auto diagonals = [&](int x, int y) {
+        if (x < 0 || y < 0 || x + 1 >= push.grid.x || y + 1 >= push.grid.y) return 0.0f;
+        return diagonal_strains(particle(x, y), particle(x + 1, y), particle(x, y + 1), particle(x + 1, y + 1),
+                                shares(x, y).z, shares(x + 1, y).w, push.rest_diagonal, push.compression);
+    };
+    std::vector<vec4> loads(position.size(), {0, 0, 0, 0});
+    for (int y = 0; y < push.grid.y; ++y)
+        for (int x = 0; x < push.grid.x; ++x) {
+            const vec4 limits = cloth.tear_limits[place(x, y)], share = shares(x, y);
+            const bool shears = limits.z != 0.0f || limits.w != 0.0f;
+            const auto around = [&](int left, int up) {
+                return shears ? diagonals(x - left, y - up) + diagonals(x, y) : 0.0f;
+            };
+            if (x + 1 < push.grid.x && share.x != 0.0f)
+                loads[place(x, y)].x =
+                    tear_load(balancing_strain(particle(x, y), particle(x + 1, y), push.rest_row, push.compression),
+                              around(0, 1), limits.z, limits.x);
+            if (y + 1 < push.grid.y && share.y != 0.0f)
+                loads[place(x, y)].y =
+                    tear_load(balancing_strain(particle(x, y), particle(x, y + 1), push.rest_column, push.compression),
+                              around(1, 0), limits.w, limits.y);
+        }
+    return loads;
+}
+
+}  // namespace drape

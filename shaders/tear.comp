@@ -1,0 +1,66 @@
+// This pass finds how hard the springs along rows and columns are pulled at the end of a frame, over what they bear, and
+// counts those that bear too much. MASKED leaves out springs that are gone.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variants MASKED
+#include "shared/simulation_types.h"
+#include "shared/cut_types.h"
+#include "include/tear.h"
+#include "include/push.h"
+
+layout(local_size_x = workgroup_width) in;
+PUSH_CONSTANTS(TearPush)
+layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
+layout(set = 0, binding = 1, rgba32f) uniform readonly image2D tear_limits;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D tear_loads;  // x: of the row's spring, y: the column's
+layout(set = 0, binding = 3, std430) buffer Count { uint count[]; };         // springs that bear too much
+#ifdef MASKED
+layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_shares;
+#endif
+
+vec3 particle(ivec2 at) { return imageLoad(position, at).xyz; }
+
+vec4 shares_of(ivec2 at) {
+#ifdef MASKED
+    return imageLoad(spring_shares, at);
+#else
+    return vec4(1.0f);
+#endif
+}
+
+/// 0 outside the grid.
+float cell_diagonals(ivec2 cell) {
+    if (cell.x < 0 || cell.y < 0 || cell.x + 1 >= push.grid.x || cell.y + 1 >= push.grid.y) return 0.0f;
+    ivec2 right = cell + ivec2(1, 0);
+    return diagonal_strains(particle(cell), particle(right), particle(cell + ivec2(0, 1)), particle(cell + ivec2(1, 1)),
+                            shares_of(cell).z, shares_of(right).w, push.rest_diagonal, push.compression);
+}
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
+    vec4 limits = imageLoad(tear_limits, texel);
+    vec4 shares = shares_of(texel);
+    vec3 here = particle(texel);
+    float beside = 0.0f, above = 0.0f, left = 0.0f;
+    if (limits.z != 0.0f || limits.w != 0.0f) {
+        beside = cell_diagonals(texel);
+        above = cell_diagonals(texel - ivec2(0, 1));
+        left = cell_diagonals(texel - ivec2(1, 0));
+    }
+    float along_row = 0.0f, along_column = 0.0f;
+    if (texel.x + 1 < push.grid.x && shares.x != 0.0f) {
+        precise float diagonals = above + beside;
+        along_row = tear_load(balancing_strain(here, particle(texel + ivec2(1, 0)), push.rest_row, push.compression),
+                              diagonals, limits.z, limits.x);
+    }
+    if (texel.y + 1 < push.grid.y && shares.y != 0.0f) {
+        precise float diagonals = left + beside;
+        along_column =
+            tear_load(balancing_strain(here, particle(texel + ivec2(0, 1)), push.rest_column, push.compression),
+                      diagonals, limits.w, limits.y);
+    }
+    imageStore(tear_loads, texel, vec4(along_row, along_column, 0.0f, 0.0f));
+    uint overloaded = (along_row > 1.0f ? 1u : 0u) + (along_column > 1.0f ? 1u : 0u);
+    if (overloaded > 0u) atomicAdd(count[0], overloaded);
+}
