@@ -14,6 +14,7 @@
 #include "drape/scene.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
+#include "output/written_collider.h"
 
 namespace drape {
 
@@ -37,10 +38,13 @@ struct WrittenRun {
     std::uint32_t start = 0, end = 0, step = 1;  ///< frames, `end` inclusive
     double fps = 60;
     bool cuts = false;  ///< faces may change
+    Up up = Up::y;      ///< the world's, whose coordinates the files have
     std::uint32_t width = 0, height = 0;
     std::string key;                ///< the run's key (kept_frames.h)
     std::string scene, parameters;  ///< JSON: the scene with its defaults written out; what the run chose
     std::uint32_t seed = 0;         ///< decides the gusts
+    std::vector<WrittenCollider> colliders = {};
+    std::vector<WrittenCollider> obstacles = {};  ///< the same as graph networks see them, which know nodes alone
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };

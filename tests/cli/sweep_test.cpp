@@ -186,14 +186,38 @@ TEST_F(Sweep, ItsDataSetOpensInPython) {
                                                         (folder / "out/dataset").string()})
                                .wait();
     EXPECT_EQ(loaded.code, 0) << loaded.err;
-    EXPECT_THAT(loaded.out, AllOf(HasSubstr("3 trajectories of 9 frames"), HasSubstr("'world_pos': [9, 48, 3]"),
-                                  HasSubstr("'cells': [1, 70, 3]")));
+    EXPECT_THAT(loaded.out, AllOf(HasSubstr("3 trajectories of 9 frames"), HasSubstr("'world_pos': [9, 129, 3]"),
+                                  HasSubstr("'cells': [1, 198, 3]")));
     write_text(folder / "scene.json",
                R"({"cloths": [{}], "gravity": [0, 0, 0], "cutters": [{"triangle": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
         "active": [0, 1]}]})");
     const Outcome cut = sweep({"--dataset", "--resume"}, "other");
     EXPECT_EQ(cut.code, 2);
     EXPECT_THAT(cut.err, HasSubstr("the scene has cutters"));
+}
+
+TEST_F(Sweep, ItsDataSetHasObstaclesOfOneShapeThatMove) {
+    write_text(folder / "scene.json", R"({"time": {"frames": 5}, "solver": {"method": "relax", "substeps": 2},
+        "cloths": [{"grid": [4, 4], "placement": {"origin": [0, 3, 0]}}],
+        "colliders": {"spheres": [{"path": [{"t": 0}, {"t": 1, "translate": [1, 0, 0]}]}]}})");
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 2,
+        "vary": {"/colliders/spheres/0/radius": {"uniform": [0.1, 0.4]}}})");
+    const Outcome made = sweep({"--dataset", "-q"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    const auto load = [&](const std::string& name) {
+        return Running("/usr/bin/python3",
+                       {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py", (folder / name / "dataset").string()})
+            .wait();
+    };
+    const Outcome loaded = load("out");
+    EXPECT_EQ(loaded.code, 0) << loaded.err;
+    EXPECT_THAT(loaded.out, AllOf(HasSubstr("'world_pos': [5, 282, 3]"), HasSubstr("'cells': [1, 546, 3]")));
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/colliders/spheres":
+        {"grid": [[{"radius": 0.2}], [{"radius": 0.2}, {"radius": 0.3, "center": [2, 0, 0]}]]}}})");
+    ASSERT_EQ(sweep({"--dataset", "-q"}, "other").code, 0);
+    const Outcome two = load("other");
+    EXPECT_EQ(two.code, 0) << two.err;
+    EXPECT_THAT(two.out, HasSubstr("'world_pos': [5, -1, 3]"));
 }
 
 TEST_F(Sweep, TextInItsTableIsNoFormulaAndHoldsNoControlCharacter) {
