@@ -243,7 +243,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"wind", {"keys"}},
         {"wind_key", {"t", "velocity"}},
         {"gravity_key", {"t", "gravity"}},
-        {"cloth", {"name", "fabric", "start", "maps"}},
+        {"cloth", {"name", "fabric", "start", "velocities", "maps"}},
         {"maps", {"holes", "stiffness", "density"}},
         {"self_collision", {"thickness", "friction"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
