@@ -32,7 +32,7 @@ class Trajectory : public FrameWriter {
 
     std::vector<FileRecord> finish() override {
         positions_.rewrite(0, bytes_of(header()));
-        ZipFile archive(folder_, "trajectory.npz");
+        ZipFile archive(folder_, "trajectory.npz", run_.deflates);
         archive.add("world_pos.npy", positions_);
         add_mesh(archive);
         return {archive.commit()};
@@ -85,6 +85,7 @@ extern const OutputFormat mgn_format{
         "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
         "cells [1, cell, 3], node_type [1, node, 1]; colliders are nodes of type 1, as "
         "in sphere_simple; not with cutters",
+    .is_archive = true,
     .follows_cuts = false,
     .frame_files = false,
     .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },

@@ -113,6 +113,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.fps = scene.time.fps;
     run.cuts = !scene.cutters.empty();
     run.width = scene.image.size[0], run.height = scene.image.size[1];
+    run.deflates = request.deflates;
     run.key = manifest.run_key;
     run.seed = scene.wind.gust.seed;
     run.up = scene.up;

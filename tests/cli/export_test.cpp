@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "input/positions_file.h"
 #include "output/frame_writer.h"
 #include "program.h"
 #include "scenes.h"
@@ -113,6 +114,20 @@ TEST(Export, CollidersThatMoveHaveAFilePerFrame) {
         EXPECT_NEAR(low, x - 0.25, 1e-6) << frame;
         EXPECT_NEAR(high, x + 0.25, 1e-6) << frame;
     }
+}
+
+// Its last frame can still be the start of another run.
+TEST(Export, ArchivesMayBePacked) {
+    const SceneFolder folder(small_scene(4));
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out("plain"), "-q"}).code, 0);
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out("packed"), "-q", "--compress"}).code, 0);
+    EXPECT_EQ(read_text(folder / "packed/positions.npy"), read_text(folder / "plain/positions.npy"));
+    EXPECT_LT(read_text(folder / "packed/positions.npz").size(), read_text(folder / "plain/positions.npz").size() / 2);
+    const auto shape = [&](const char* run) { return input::read_positions(folder / run / "positions.npz", 8, 6); };
+    EXPECT_EQ(shape("packed"), shape("plain"));
+    const Outcome none = drape({"simulate", folder.scene(), "-o", folder.out("obj"), "--export", "obj", "--compress"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_THAT(none.err, testing::HasSubstr("--compress: no format that is written is an archive"));
 }
 
 TEST(Export, TheArchiveHasWhatMakesTheRunAgain) {

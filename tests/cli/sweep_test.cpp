@@ -177,6 +177,16 @@ TEST_F(Sweep, TellsItsRunsAndRefusesOthers) {
     EXPECT_EQ(sweep({}, "full").code, 1);
 }
 
+// Processes of its own are told, too.
+TEST_F(Sweep, ItsArchivesMayBePacked) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 2,
+        "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
+    ASSERT_EQ(sweep({"-q"}).code, 0);
+    ASSERT_EQ(sweep({"-q", "--compress", "--jobs", "2"}, "packed").code, 0);
+    const std::string name = "/runs/0001/positions.npz";
+    EXPECT_LT(file("packed" + name).size(), file("out" + name).size() / 2);
+}
+
 TEST_F(Sweep, ItsDataSetOpensInPython) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 3,
         "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");

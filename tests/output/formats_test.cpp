@@ -289,6 +289,33 @@ assert all(part.date_time == (1980, 1, 1, 0, 0, 0) for part in archive.infolist(
     EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
 }
 
+// A run of frames that are alike shows that something is packed.
+TEST(Npz, NumpyReadsAPackedOneLikeAnyOther) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path()), packed(temporary / "packed");
+    WrittenRun run = two_cloths();
+    run.scene = std::string(20000, ' ');
+    for (const char* format : {"npz", "mgn"}) {
+        run.deflates = false;
+        write(*find_output_format(format)->open(folder, run));
+        run.deflates = true;
+        write(*find_output_format(format)->open(packed, run));
+    }
+    write_text(temporary / "check.py", R"(
+import numpy as n, os, zipfile
+for name in ("positions_flag.npz", "positions_rag.npz", "trajectory.npz"):
+    one, packed = n.load(name), n.load("packed/" + name)
+    assert one.files == packed.files
+    for key in one.files:
+        assert one[key].dtype == packed[key].dtype and n.array_equal(one[key], packed[key], equal_nan=one[key].dtype.kind == "f")
+    assert all(part.compress_type == zipfile.ZIP_DEFLATED for part in zipfile.ZipFile("packed/" + name).infolist())
+    assert all(part.compress_type == zipfile.ZIP_STORED for part in zipfile.ZipFile(name).infolist())
+assert os.path.getsize("packed/positions_flag.npz") < 0.2 * os.path.getsize("positions_flag.npz")
+)");
+    EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
+}
+
 TEST(Mgn, NumpyReadsCollidersAsObstacles) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
     const TemporaryFolder temporary;
