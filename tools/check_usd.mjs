@@ -1,4 +1,5 @@
-// Reads the mesh of a USD file with TinyUSDZ, for tools/check_exports: node check_usd.mjs FILE prints it as JSON.
+// Reads a USD file with TinyUSDZ, for tools/check_exports: node check_usd.mjs FILE prints its first mesh as JSON, and
+// node check_usd.mjs FILE all prints a list of its meshes.
 import fs from "node:fs";
 
 const folder = process.env.DRAPE_NODE_MODULES + "/tinyusdz/", path = process.argv[2], node = process;
@@ -13,7 +14,10 @@ globalThis.process = node;
 
 const file = new library.TinyUSDZLoaderNative();
 if (!file.loadFromBinary(new Uint8Array(fs.readFileSync(path)), path)) throw new Error(file.error());
-const mesh = file.getMesh(0);
-console.log(JSON.stringify({
-    points: Array.from(mesh.points), faces: Array.from(mesh.faceVertexIndices), texcoords: Array.from(mesh.texcoords),
-}));
+const meshOf = number => {
+    const mesh = file.getMesh(number);
+    return {points: Array.from(mesh.points), faces: Array.from(mesh.faceVertexIndices),
+            texcoords: Array.from(mesh.texcoords ?? [])};
+};
+const all = Array.from({length: file.numMeshes()}, (_, number) => meshOf(number));
+console.log(JSON.stringify(process.argv[3] === "all" ? all : all[0]));

@@ -192,6 +192,11 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
     option->type_name("/POINTER=VALUE")->check(check_override, "");
 }
 
+void add_compress_option(CLI::App& command, bool& deflates) {
+    add_flag(command, "--compress", "Pack the archives of npz, which numpy.load reads as well: about a fifth smaller",
+             deflates);
+}
+
 void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats) {
     add_formats(command, help, false, [&formats](const std::vector<std::string>& names) { formats = names; });
 }
@@ -282,6 +287,7 @@ void add_run_options(CLI::App& command, RunRequest& request) {
                "the same exit code; default: stop",
                [&request](std::size_t place) { request.keep_failed = place == 1; });
     add_export_option(command, request);
+    add_compress_option(command, request.deflates);
     CLI::Option* overwrite = command.add_flag_callback(
         "--overwrite", [&request] { request.existing = ExistingFiles::overwrite; },
         "Replace the files an earlier run wrote there; others stay");

@@ -60,6 +60,8 @@ void add_optional_file(CLI::App& command, const char* name, const std::string& h
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
 /// Adds --export, with the formats that need no picture.
 void add_format_option(CLI::App& command, const std::string& help, std::vector<std::string>& formats);
+/// Adds --compress.
+void add_compress_option(CLI::App& command, bool& deflates);
 /// Adds --device.
 void add_device_option(CLI::App& command, std::string& device);
 /// Adds --device, which may be repeated.

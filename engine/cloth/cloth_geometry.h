@@ -42,7 +42,9 @@ struct ClothGeometry {
     double spacing[2];                      ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
     double damping;                         ///< 1/s
-    Vec3 velocity;                          ///< m/s at the start
+    Vec3 velocity;                          ///< m/s at the start, of all particles
+    std::vector<Vec3> velocities;           ///< m/s at the start by particle; empty: `velocity`
+    double start_speed;                     ///< m/s: the largest
     bool rigid;                             ///< stretch and shear springs are inextensible
     float compression;                      ///< share of their stiffness where they are pushed together
     double bend;                            ///< N m

@@ -27,18 +27,22 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
 std::vector<glsl::vec4> ClothModel::start_displacement() const {
     std::vector<glsl::vec4> texels;
     texels.reserve(position.size());
-    for (const glsl::vec4& at : position) texels.push_back(at.w > 0 ? scheme.start : glsl::vec4{});
+    for (std::size_t i = 0; i < position.size(); ++i) texels.push_back(position[i].w > 0 ? start_of(i) : glsl::vec4{});
     return texels;
 }
 
 std::vector<glsl::vec4> ClothModel::start_excess() const {
-    const auto excess = [this](std::size_t k, float displacement) {
-        return static_cast<float>(velocity[k] * substep_length - displacement);
-    };
-    const glsl::vec4 start{excess(0, scheme.start.x), excess(1, scheme.start.y), excess(2, scheme.start.z), 0};
     std::vector<glsl::vec4> texels;
     texels.reserve(position.size());
-    for (const glsl::vec4& at : position) texels.push_back(at.w > 0 ? start : glsl::vec4{});
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        const Vec3& v = velocities.empty() ? velocity : velocities[i];
+        const auto excess = [&](std::size_t k, float displacement) {
+            return static_cast<float>(v[k] * substep_length - displacement);
+        };
+        const glsl::vec4& start = start_of(i);
+        texels.push_back(position[i].w > 0 ? glsl::vec4{excess(0, start.x), excess(1, start.y), excess(2, start.z), 0}
+                                           : glsl::vec4{});
+    }
     return texels;
 }
 

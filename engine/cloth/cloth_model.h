@@ -49,6 +49,9 @@ struct ClothModel : ClothGeometry {
     std::vector<glsl::vec4> start_excess() const;
 
   private:
+    const glsl::vec4& start_of(std::size_t particle) const {
+        return scheme.starts.empty() ? scheme.start : scheme.starts[particle];
+    }
     void set_constants(const SceneDescription& scene, const Cloth& cloth, bool air);
 };
 

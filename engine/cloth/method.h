@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +37,7 @@ struct MethodScheme {
 
     glsl::vec4 start{};  ///< displacement of free particles at the start, m: x(0) - x(-h), the half-kick start, or what
                          ///< else the prediction expects
+    std::vector<glsl::vec4> starts{};  ///< the same by particle; empty: all have `start`
 
     // The steps need these fields beside position and displacement with their remainders.
     bool spare_state = false;         ///< particles gather what springs do: a step reads one state, writes another
@@ -97,8 +99,13 @@ std::vector<std::byte> bytes_of(const MethodScheme& scheme);
 /// Returns phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
 double damping_mean(double damping, double substep_length);
 glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings);
-/// Returns the displacement before the start that makes damped ballistic flight of that prediction exact.
-glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings);
+/// Returns the displacement before the start, of a particle with this velocity (m/s), that makes damped ballistic
+/// flight of that prediction exact.
+glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, const Vec3& velocity);
+/// Sets the displacement before the start to what `displacement` gives for a velocity, m/s.
+void set_start(const ClothGeometry& cloth, const std::function<glsl::vec4(const Vec3&)>& displacement,
+               MethodScheme& scheme);
+void set_verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 /// Notes that the cloth follows less of its `what` ("stiffness") than it was given; `followed` says how much. Without
 /// `enough_substeps` no number of substeps would be enough.
 void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,

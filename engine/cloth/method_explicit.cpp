@@ -56,7 +56,7 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
     const StiffnessConstants& wanted = cloth.stiffness_constant;
     MethodScheme scheme;
     scheme.prediction = {{StepKind::explicit_step, step_constants(cloth, settings, used)}};
-    scheme.start = verlet_start(cloth, settings);
+    set_verlet_start(cloth, settings, scheme);
     scheme.spare_state = true;
     scheme.gathered_tension = {cloth.grid.size(),
                                {static_cast<float>(wanted.rest_length[0]), static_cast<float>(wanted.rest_length[1])},

@@ -131,9 +131,16 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     scheme.second_order = true;
     const double h = settings.substep_length;
-    const Vec3& v = cloth.velocity;
     // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
-    scheme.start = cloth.damping * h > 1 ? texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0) : verlet_start(cloth, settings);
+    if (cloth.damping * h > 1)
+        set_start(
+            cloth,
+            [h](const Vec3& v) {
+                return texel(Vec3{v[0] * h, v[1] * h, v[2] * h}, 0);
+            },
+            scheme);
+    else
+        set_verlet_start(cloth, settings, scheme);
     scheme.prediction = {{StepKind::predict, predict_constants(cloth, settings)}};
 }
 

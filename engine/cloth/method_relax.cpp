@@ -48,7 +48,7 @@ void add_springs(const ClothGeometry& cloth, const MethodSettings& settings, Met
 MethodScheme relax_scheme(const ClothGeometry& cloth, const MethodSettings& settings) {
     MethodScheme scheme;
     scheme.prediction = {{StepKind::force, force_constants(cloth, settings)}};
-    scheme.start = verlet_start(cloth, settings);
+    set_verlet_start(cloth, settings, scheme);
     scheme.used_stiffness = cloth.stiffness_constant.spring;
     if (cloth.rigid) scheme.used_stiffness.fill(std::numeric_limits<double>::infinity());
     add_bend_relaxation(cloth, settings, scheme);

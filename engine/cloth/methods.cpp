@@ -84,15 +84,16 @@ std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t
 
 std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
     // A binding names every member: one that is added does not compile until it is added here.
-    const auto& [prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order,
-                 line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension, used_stiffness,
-                 used_bend, following_substeps, skipped, compromises] = scheme;
+    const auto& [prediction, once, iterated, start, starts, spare_state, spare_displacement, spare_tension,
+                 second_order, line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension,
+                 used_stiffness, used_bend, following_substeps, skipped, compromises] = scheme;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
     add(prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order, line_scratch,
         carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
         following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
+    for (const glsl::vec4& each : starts) list.add(each);
     static_cast<void>(skipped), static_cast<void>(compromises);  // these are words
     return list.bytes;
 }
@@ -115,11 +116,23 @@ glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings
             texel(Vec3{step * gravity[0], step * gravity[1], step * gravity[2]}, 0)};
 }
 
-glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings) {
+glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, const Vec3& velocity) {
     Vec3 start;
     for (std::size_t k = 0; k < 3; ++k)
-        start[k] = start_displacement(cloth.velocity[k], settings.gravity[k], cloth.damping, settings.substep_length);
+        start[k] = start_displacement(velocity[k], settings.gravity[k], cloth.damping, settings.substep_length);
     return texel(start, 0);
+}
+
+void set_start(const ClothGeometry& cloth, const std::function<glsl::vec4(const Vec3&)>& displacement,
+               MethodScheme& scheme) {
+    scheme.start = displacement(cloth.velocity);
+    scheme.starts.clear();
+    for (const Vec3& velocity : cloth.velocities) scheme.starts.push_back(displacement(velocity));
+}
+
+void set_verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
+    set_start(
+        cloth, [&](const Vec3& velocity) { return verlet_start(cloth, settings, velocity); }, scheme);
 }
 
 void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings, const std::string& what,

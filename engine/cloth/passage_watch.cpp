@@ -157,7 +157,7 @@ std::vector<ClothStatistics> starting_statistics(const SimulationModel& model) {
     for (const ClothModel& cloth : model.cloths) {
         ClothStatistics& start = all.emplace_back();
         start.stretch.largest = start.shear.largest = cloth.start_strain;
-        start.largest_speed = length(cloth.velocity);
+        start.largest_speed = cloth.start_speed;
         const std::vector<float> shares = mass_shares(cloth);
         for (std::size_t i = 0; i < shares.size(); ++i) {
             const glsl::vec4& at = cloth.position[i];

@@ -50,6 +50,7 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
     small.pins.clear();
     small.holes.clear();
     small.start.clear();
+    small.velocities.clear();
     small.cell_stiffness.clear();
     small.cell_density.clear();
     const MethodSettings settings{substeps,

@@ -226,6 +226,7 @@ bool have_same_numbers(const Cloth& one, const Cloth& other) {
     same.placement = one.placement;
     same.start = one.start;
     same.velocity = one.velocity;
+    same.velocities = one.velocities;
     same.pins = one.pins;
     same.appearance = one.appearance;
     return same == one;

@@ -113,9 +113,13 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
             start.distance = std::max(start.distance, length(at));
             for (std::size_t k = 0; k < 3; ++k) start.mean[k] += share[i] * at[k];
             mass += share[i];
+            if (!cloth.velocities.empty() && cloth.position[i].w > 0)
+                start.square_speed += share[i] * dot(cloth.velocities[i], cloth.velocities[i]);
             start.held = start.held || (cloth.position[i].w == 0 && share[i] > 0);
         }
         for (double& each : start.mean) each /= std::max(mass, 1e-300);
+        start.square_speed = cloth.velocities.empty() ? dot(cloth.velocity, cloth.velocity)
+                                                      : start.square_speed / std::max(mass, 1e-300);
         start.held = start.held && !cloth.has_release && !model.scene.comes_apart();
         passive_ = passive_ && !cloth.has_motion;
         starts_.push_back(start);
@@ -203,8 +207,8 @@ double Watch::own_speed(std::uint32_t frame, std::size_t index) const {
     const double smaller = std::min(cloth.size[0], cloth.size[1]);
     const double recoil =
         std::min(drive.travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
-    return length(cloth.velocity) + fall + (model_.windy ? wind : 0) + released(index) + pushed() + drive.speed +
-           recoil;
+    return model_.cloths[index].start_speed + fall + (model_.windy ? wind : 0) + released(index) + pushed() +
+           drive.speed + recoil;
 }
 
 /// Returns the speed and the way that a cloth may have by all that acts on it. Struck by a much heavier one it leaves,
@@ -253,9 +257,8 @@ Implausible Watch::worst_penetration(std::uint32_t frame, std::size_t index, con
 
 /// Returns the energy that a cloth has gained, and what of it is explained, J.
 Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) const {
-    const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
-    const double moving = 0.5 * statistics.mass * dot(cloth.velocity, cloth.velocity);
+    const double moving = 0.5 * statistics.mass * start.square_speed;
     const double start_energy = moving - statistics.mass * dot(gravity_at(model_.scene, 0), start.mean);
     // The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at
     // the full stiffness, though it was never stored.
@@ -333,7 +336,7 @@ double Watch::allowed_stretch(std::uint32_t frame, bool driven) const {
     if (model_.closed_loop() || model_.self_contact) most = std::max(most, times_law * model_.stretch_limits().worst);
     for (std::size_t cloth = 0; cloth < starts_.size(); ++cloth) {
         const Start& start = starts_[cloth];
-        const double speed = driven ? length(model_.cloths[cloth].velocity) + drive_at(cloth, frame).pace : 0;
+        const double speed = driven ? model_.cloths[cloth].start_speed + drive_at(cloth, frame).pace : 0;
         const double law = model_.closed_loop() ? 0 : std::min(times_law * stretch_law(cloth, speed), 1.0);
         most = std::max({most, law, start.held_strain, driven ? start.strain : 0});
     }

@@ -99,6 +99,7 @@ class Watch {
         double strain;               ///< its springs', where it starts stretched or compressed
         double held_strain;          ///< that of springs that pins hold at both ends
         bool held;                   ///< pins hold it for good
+        double square_speed = 0;     ///< m^2/s^2, the mean by mass
     };
     void remember(const ClothStatistics& statistics);
     Drive next_drive(std::size_t cloth, std::uint32_t frame, const Drive& before) const;

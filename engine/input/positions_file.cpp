@@ -26,8 +26,8 @@ OutputError of_another_shape(const std::string& name, const GridSize& grid, cons
     return unreadable(name, fmt::format("the grid of {} needs {}, and it has {}", grid.text(), wanted, got));
 }
 
-Positions array_positions(const std::filesystem::path& path, const GridSize& grid) {
-    const Array array = load_array(path, "positions", [&](const Array& head) -> std::uint64_t {
+Positions array_positions(const std::filesystem::path& path, const GridSize& grid, std::string_view name) {
+    const Array array = load_array(path, name, [&](const Array& head) -> std::uint64_t {
         const std::vector<std::uint64_t>& shape = head.shape;
         const bool is_real = head.type == "<f4" || head.type == "<f8";
         const std::size_t frames = shape.size() == 4 ? 1 : 0;
@@ -142,10 +142,18 @@ Positions cached_points(const std::filesystem::path& path, const GridSize& grid)
 Positions read_positions(const std::filesystem::path& path, std::uint32_t columns, std::uint32_t rows) {
     const GridSize grid{columns, rows};
     const std::string extension = extension_of(path);
-    if (extension == ".npy" || extension == ".npz") return array_positions(path, grid);
+    if (extension == ".npy" || extension == ".npz") return array_positions(path, grid, "positions");
     if (extension == ".obj") return mesh_vertices(path, grid);
     if (extension == ".pc2") return cached_points(path, grid);
     throw unreadable(path.string(), "positions are read from .npy, .npz, .obj and .pc2");
+}
+
+std::vector<std::array<double, 3>> read_velocities(const std::filesystem::path& path, std::uint32_t columns,
+                                                   std::uint32_t rows) {
+    const std::string extension = extension_of(path);
+    if (extension != ".npy" && extension != ".npz")
+        throw unreadable(path.string(), "velocities are read from .npy and .npz");
+    return array_positions(path, {columns, rows}, "velocities");
 }
 
 }  // namespace drape::input

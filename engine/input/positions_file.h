@@ -17,5 +17,8 @@ namespace drape::input {
 /// Throws OutputError naming the file: where it is not that, is of another shape (both are said), or ends too early.
 std::vector<std::array<double, 3>> read_positions(const std::filesystem::path& path, std::uint32_t columns,
                                                   std::uint32_t rows);
+/// Returns their velocities (m/s) likewise, from .npy, or from .npz as its array `velocities`.
+std::vector<std::array<double, 3>> read_velocities(const std::filesystem::path& path, std::uint32_t columns,
+                                                   std::uint32_t rows);
 
 }  // namespace drape::input

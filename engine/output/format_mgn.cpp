@@ -8,26 +8,31 @@ namespace drape {
 
 namespace {
 
-constexpr std::int32_t normal_node = 0, handle_node = 3;  // NodeType of MeshGraphNets' common.py
+constexpr std::int32_t normal_node = 0, obstacle_node = 1, handle_node = 3;  // NodeType of MeshGraphNets' common.py
 
-/// Writes all cloths as one mesh, cloth after cloth. The frames wait in a file beside the archive.
+/// Writes all cloths as one mesh, cloth after cloth, then the colliders. The frames wait in a file beside the archive.
 class Trajectory : public FrameWriter {
   public:
     Trajectory(OutputFolder& folder, const WrittenRun& run)
         : folder_(folder), run_(run), positions_(folder, "trajectory_frames.npz") {
         for (const WrittenCloth& cloth : run_.cloths) node_count_ += cloth.particle_count();
+        for (const WrittenCollider& collider : run_.obstacles) node_count_ += collider.vertices.size();
         positions_.append(bytes_of(header()));
     }
 
     void add(const WrittenFrame& frame) override {
         for (const std::span<const float> cloth : frame.positions)
             positions_.append(std::as_bytes(std::span<const float>(without_w(cloth))));
+        for (const WrittenCollider& collider : run_.obstacles) {
+            const std::vector<float> nodes = placed_vertices(collider, frame.number / run_.fps);
+            positions_.append(std::as_bytes(std::span(nodes)));
+        }
         ++frame_count_;
     }
 
     std::vector<FileRecord> finish() override {
         positions_.rewrite(0, bytes_of(header()));
-        ZipFile archive(folder_, "trajectory.npz");
+        ZipFile archive(folder_, "trajectory.npz", run_.deflates);
         archive.add("world_pos.npy", positions_);
         add_mesh(archive);
         return {archive.commit()};
@@ -50,6 +55,13 @@ class Trajectory : public FrameWriter {
                 types.push_back(!cloth.held.empty() && cloth.held[particle] ? handle_node : normal_node);
             }
         }
+        // A solid body has no sheet to lie in.
+        for (const WrittenCollider& collider : run_.obstacles) {
+            const auto first = static_cast<std::uint32_t>(types.size());
+            for (const std::uint32_t vertex : collider.faces) cells.push_back(first + vertex);
+            types.insert(types.end(), collider.vertices.size(), obstacle_node);
+            mesh_positions.insert(mesh_positions.end(), collider.vertices.size(), {0, 0});
+        }
         archive.add("mesh_pos.npy",
                     npy_array("<f4", fmt::format("1, {}, 2", node_count_), std::as_bytes(std::span(mesh_positions))));
         archive.add("cells.npy",
@@ -71,7 +83,9 @@ extern const OutputFormat mgn_format{
     .files = "trajectory.npz",
     .holds =
         "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
-        "cells [1, cell, 3], node_type [1, node, 1]; not with cutters or tear",
+        "cells [1, cell, 3], node_type [1, node, 1]; colliders are nodes of type 1, as in sphere_simple; not with "
+        "cutters or tear",
+    .is_archive = true,
     .follows_cuts = false,
     .frame_files = false,
     .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },

@@ -66,7 +66,7 @@ class NpzFile {
     }
 
     FileRecord finish() {
-        ZipFile archive(folder_, cloth_file_name("positions", cloth_, "npz"));
+        ZipFile archive(folder_, cloth_file_name("positions", cloth_, "npz"), run_.deflates);
         for (std::size_t i = 0; i < particle_arrays.size(); ++i)
             archive.add(fmt::format("{}.npy", particle_arrays[i]->name), waiting_[i]->contents());
         archive.add("faces.npy", face_array(cloth_.faces));
@@ -147,6 +147,7 @@ extern const OutputFormat npz_format{
         "kinetic_energy_j and so on [frame]; seed, of the gusts; parameters, what the run chose, and scene, with "
         "every default, JSON",
     .details = true,
+    .is_archive = true,
     .frame_files = false,
     .frame_bytes = [](const FrameSize& frame) { return 2 * 26 * frame.particles; },
     .owns = owns,

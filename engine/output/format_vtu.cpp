@@ -2,6 +2,7 @@
 // are appended as they lie in memory; a collection gives each file its time.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "output/mesh_text.h"
@@ -33,25 +34,20 @@ class Appended {
     std::string bytes_;
 };
 
-std::string vtu_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
+/// Returns a grid of triangles; `attributes` are elements whose arrays `data` has.
+std::string grid_text(Appended& data, const std::string& attributes, const std::vector<float>& points,
+                      const std::vector<std::uint32_t>& faces) {
     constexpr std::uint8_t triangle = 5;
-    const std::size_t triangles = cloth.faces.size() / 3;
-    std::vector<float> uv;
-    for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle)
-        for (const float coordinate : cloth.uv(particle)) uv.push_back(coordinate);
-    std::vector<std::int64_t> corners(cloth.faces.begin(), cloth.faces.end()), ends;
+    const std::size_t triangles = faces.size() / 3;
+    const std::vector<std::int64_t> corners(faces.begin(), faces.end());
+    std::vector<std::int64_t> ends;
     for (std::size_t i = 1; i <= triangles; ++i) ends.push_back(static_cast<std::int64_t>(3 * i));
-    Appended data;
     std::string text = fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-        cloth.particle_count(), triangles);
-    text += "<PointData Vectors=\"velocity\" TCoords=\"uv\">\n";
-    text += data.array("Float32", "velocity", 3, without_w(mesh.velocities));
-    text += data.array("Int16", "contact", 1, std::vector<std::int16_t>(mesh.contacts.begin(), mesh.contacts.end()));
-    text += data.array("Float32", "uv", 2, uv);
-    text += "</PointData>\n<Points>\n";
-    text += data.array("Float32", "points", 3, without_w(mesh.positions));
+        points.size() / 3, triangles);
+    text += attributes + "<Points>\n";
+    text += data.array("Float32", "points", 3, points);
     text += "</Points>\n<Cells>\n";
     text += data.array("Int64", "connectivity", 1, corners);
     text += data.array("Int64", "offsets", 1, ends);
@@ -60,48 +56,95 @@ std::string vtu_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
     return text + data.bytes() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-constexpr std::string_view collection_name = "mesh.pvd";
+std::string vtu_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
+    std::vector<float> uv;
+    for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle)
+        for (const float coordinate : cloth.uv(particle)) uv.push_back(coordinate);
+    Appended data;
+    std::string text = "<PointData Vectors=\"velocity\" TCoords=\"uv\">\n";
+    text += data.array("Float32", "velocity", 3, without_w(mesh.velocities));
+    text += data.array("Int16", "contact", 1, std::vector<std::int16_t>(mesh.contacts.begin(), mesh.contacts.end()));
+    text += data.array("Float32", "uv", 2, uv);
+    return grid_text(data, text + "</PointData>\n", without_w(mesh.positions), cloth.faces);
+}
+
+std::string vtu_colliders_text(const std::vector<PlacedCollider>& colliders, Up) {
+    std::vector<std::int32_t> numbers;
+    for (const auto& [collider, vertices] : colliders)
+        numbers.insert(numbers.end(), collider.faces.size() / 3, collider.number);
+    Appended data;
+    std::string text = "<CellData Scalars=\"collider\">\n" + data.array("Int32", "collider", 1, numbers);
+    return grid_text(data, text + "</CellData>\n", joined_vertices(colliders), joined_faces(colliders));
+}
+
+constexpr std::string_view collection_name = "mesh.pvd", colliders_collection_name = "colliders.pvd";
+
+/// Gives each file of a frame its time.
+class Collection {
+  public:
+    void add(double time, std::size_t part, const std::string& file) {
+        sets_ += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", time, part, file);
+    }
+    FileRecord write(OutputFolder& folder, std::string_view name) const {
+        const std::string text =
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+            "<Collection>\n" +
+            sets_ + "</Collection>\n</VTKFile>\n";
+        return write_file(folder, std::string(name), bytes_of(text));
+    }
+
+  private:
+    std::string sets_;
+};
 
 class VtuSequence : public MeshSequence {
   public:
-    VtuSequence(OutputFolder& folder, const WrittenRun& run) : MeshSequence(folder, run, "vtu", vtu_text) {}
+    VtuSequence(OutputFolder& folder, const WrittenRun& run)
+        : MeshSequence(folder, run, "vtu", {vtu_text, vtu_colliders_text}) {}
 
     void add(const WrittenFrame& frame) override {
         const std::size_t before = files().size();
         MeshSequence::add(frame);
-        for (std::size_t part = 0; before + part < files().size(); ++part)
-            collection_ += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", frame.number / run().fps,
-                                       part, files()[before + part].name);
+        const double time = frame.number / run().fps;
+        const std::size_t cloths = run().cloths.size();
+        for (std::size_t part = 0; part < cloths; ++part) cloths_.add(time, part, files()[before + part].name);
+        // A file of colliders that stand still is every frame's.
+        std::size_t part = 0;
+        for (const bool moving : {false, true}) {
+            if (std::ranges::count(run().colliders, moving, &WrittenCollider::moves) == 0) continue;
+            const int digits = frame_digits(run().end);
+            colliders_.add(time, part++,
+                           moving ? moving_colliders_name(frame.number, digits, "vtu") : still_colliders_name("vtu"));
+        }
     }
 
     std::vector<FileRecord> finish() override {
-        const std::string text =
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-            "<Collection>\n" +
-            collection_ + "</Collection>\n</VTKFile>\n";
-        const FileRecord collection = write_file(folder(), std::string(collection_name), bytes_of(text));
         std::vector<FileRecord> all = MeshSequence::finish();
-        all.push_back(collection);
+        all.push_back(cloths_.write(folder(), collection_name));
+        if (!run().colliders.empty()) all.push_back(colliders_.write(folder(), colliders_collection_name));
         return all;
     }
 
   private:
-    std::string collection_;
+    Collection cloths_, colliders_;
 };
 
 }  // namespace
 
 extern const OutputFormat vtu_format{
     .name = "vtu",
-    .files = "mesh_FRAME.vtu, mesh.pvd",
+    .files = "mesh_FRAME.vtu, mesh.pvd, colliders.vtu, colliders_FRAME.vtu, colliders.pvd",
     .holds =
         "VTK grids of triangles with velocity (m/s), contact and uv of every particle; mesh.pvd gives them their "
-        "times",
+        "times; colliders likewise, with the number that contact has; colliders.pvd",
     .details = true,
     .frame_files = true,
     .frame_bytes = [](const FrameSize& frame) { return 34 * frame.particles + 33 * frame.triangles; },
     .owns =
-        [](std::string_view name) { return is_cloth_frame_file_name(name, "mesh", "vtu") || name == collection_name; },
+        [](std::string_view name) {
+            return is_cloth_frame_file_name(name, "mesh", "vtu") || is_colliders_name(name, "vtu") ||
+                   name == collection_name || name == colliders_collection_name;
+        },
     .open = open_writer<VtuSequence>};
 
 }  // namespace drape

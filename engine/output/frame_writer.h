@@ -14,6 +14,7 @@
 #include "drape/scene.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
+#include "output/written_collider.h"
 
 namespace drape {
 
@@ -36,11 +37,15 @@ struct WrittenRun {
     std::vector<WrittenCloth> cloths;
     std::uint32_t start = 0, end = 0, step = 1;  ///< frames, `end` inclusive
     double fps = 60;
-    bool cuts = false;  ///< faces may change
+    bool cuts = false;      ///< faces may change
+    bool deflates = false;  ///< archives are packed
+    Up up = Up::y;          ///< the world's, whose coordinates the files have
     std::uint32_t width = 0, height = 0;
     std::string key;                ///< the run's key (kept_frames.h)
     std::string scene, parameters;  ///< JSON: the scene with its defaults written out; what the run chose
     std::uint32_t seed = 0;         ///< decides the gusts
+    std::vector<WrittenCollider> colliders = {};
+    std::vector<WrittenCollider> obstacles = {};  ///< the same as graph networks see them, which know nodes alone
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };
@@ -95,6 +100,7 @@ struct OutputFormat {
     bool draws = false;        ///< needs WrittenFrame::rgba, else positions
     bool details = false;      ///< needs velocities and contacts
     bool resumes = false;      ///< its files name their run (kept_frames.h); others' are written anew
+    bool is_archive = false;   ///< its file is a ZIP archive, which may be packed
     bool follows_cuts = true;  ///< its faces may change; false: such a scene is refused
     bool frame_files;          ///< a file per frame, each a result; else files that appear when the run is complete
     /// Returns the bytes that every frame takes at least; null: not known before.

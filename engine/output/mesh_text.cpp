@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 namespace drape {
 
@@ -25,6 +26,22 @@ std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
     return text;
 }
 
+std::vector<std::uint32_t> joined_faces(const std::vector<PlacedCollider>& colliders) {
+    std::vector<std::uint32_t> faces;
+    std::uint32_t first = 0;
+    for (const auto& [collider, vertices] : colliders) {
+        for (const std::uint32_t corner : collider.faces) faces.push_back(first + corner);
+        first += static_cast<std::uint32_t>(collider.vertices.size());
+    }
+    return faces;
+}
+
+std::vector<float> joined_vertices(const std::vector<PlacedCollider>& colliders) {
+    std::vector<float> all;
+    for (const auto& [collider, vertices] : colliders) all.insert(all.end(), vertices.begin(), vertices.end());
+    return all;
+}
+
 void MeshSequence::add(const WrittenFrame& frame) {
     // Cuts are told of as they are found, when frames before them may still wait for their pictures.
     std::erase_if(changes_, [&](Change& change) {
@@ -38,8 +55,23 @@ void MeshSequence::add(const WrittenFrame& frame) {
         if (!frame.velocities.empty()) mesh.velocities = frame.velocities[i];
         if (!frame.contacts.empty()) mesh.contacts = frame.contacts[i];
         const std::string name = cloth_frame_file_name("mesh", cloth, frame.number, frame_digits(run_.end), extension_);
-        files_.push_back(write_file(folder_, name, bytes_of(text_(cloth, mesh))));
+        files_.push_back(write_file(folder_, name, bytes_of(texts_.cloth(cloth, mesh))));
     }
+    add_colliders(frame.number);
+}
+
+/// An earlier run's files go at the first write, so what stands still waits for the first frame, too.
+void MeshSequence::add_colliders(std::uint32_t frame) {
+    if (!std::exchange(still_written_, true)) write_colliders(false, still_colliders_name(extension_), frame);
+    write_colliders(true, moving_colliders_name(frame, frame_digits(run_.end), extension_), frame);
+}
+
+void MeshSequence::write_colliders(bool moving, const std::string& name, std::uint32_t frame) {
+    std::vector<PlacedCollider> placed;
+    for (const WrittenCollider& collider : run_.colliders)
+        if (collider.moves == moving) placed.push_back({collider, placed_vertices(collider, frame / run_.fps)});
+    if (placed.empty()) return;
+    files_.push_back(write_file(folder_, name, bytes_of(texts_.colliders(placed, run_.up))));
 }
 
 void MeshSequence::set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {

@@ -11,18 +11,34 @@ struct WrittenMesh {
     std::span<const std::int16_t> contacts;
 };
 
-using MeshText = std::string (*)(const WrittenCloth& cloth, const WrittenMesh& mesh);
+/// A collider in a frame.
+struct PlacedCollider {
+    const WrittenCollider& collider;
+    std::vector<float> vertices;  ///< x y z each, m
+};
+
+/// How a format writes a file of a cloth, and one of colliders in a world with this axis up.
+struct MeshTexts {
+    std::string (*cloth)(const WrittenCloth& cloth, const WrittenMesh& mesh);
+    std::string (*colliders)(const std::vector<PlacedCollider>& colliders, Up up);
+};
+
+/// Returns the corners of all triangles, the vertices numbered through.
+std::vector<std::uint32_t> joined_faces(const std::vector<PlacedCollider>& colliders);
+/// Returns x y z of all vertices.
+std::vector<float> joined_vertices(const std::vector<PlacedCollider>& colliders);
 
 /// Returns a Wavefront OBJ: a vertex and a texture coordinate per particle of the list, which is sorted and has all
 /// that the faces name, then the faces. Numbers have the fewest digits that read back as the same float.
 std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
                      const std::vector<std::uint32_t>& particles);
 
-/// Writes mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths.
+/// Writes mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths. Colliders that stand still
+/// are in colliders.EXTENSION, those that move in colliders_0000.EXTENSION ...
 class MeshSequence : public FrameWriter {
   public:
-    MeshSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshText text)
-        : folder_(folder), run_(run), extension_(std::move(extension)), text_(text) {}
+    MeshSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshTexts texts)
+        : folder_(folder), run_(run), extension_(std::move(extension)), texts_(texts) {}
 
     void add(const WrittenFrame& frame) override;
     void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override;
@@ -34,6 +50,9 @@ class MeshSequence : public FrameWriter {
     const std::vector<FileRecord>& files() const { return files_; }
 
   private:
+    void add_colliders(std::uint32_t frame);
+    void write_colliders(bool moving, const std::string& name, std::uint32_t frame);
+
     OutputFolder& folder_;
     /// Faces that a cloth has from a frame on, which was not added yet.
     struct Change {
@@ -45,8 +64,9 @@ class MeshSequence : public FrameWriter {
     WrittenRun run_;               ///< has the faces of the frame that was added last
     std::vector<Change> changes_;  ///< in the order of their frames
     std::string extension_;
-    MeshText text_;
+    MeshTexts texts_;
     std::vector<FileRecord> files_;
+    bool still_written_ = false;  ///< colliders that stand still
 };
 
 }  // namespace drape

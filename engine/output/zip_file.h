@@ -8,11 +8,12 @@
 
 namespace drape {
 
-/// A ZIP archive of files as they are, which appears under its name complete or not at all. Its bytes depend on its
-/// parts alone, as every date is the same.
+/// A ZIP archive of files as they are, or deflated, which appears under its name complete or not at all. Its bytes
+/// depend on its parts alone, as every date is the same.
 class ZipFile {
   public:
-    ZipFile(OutputFolder& folder, std::string name) : file_(folder, std::move(name)) {}
+    ZipFile(OutputFolder& folder, std::string name, bool deflates)
+        : file_(folder, std::move(name)), deflates_(deflates) {}
 
     void add(std::string part_name, std::string bytes) { parts_.push_back({std::move(part_name), std::move(bytes)}); }
     /// Adds what `contents`, which must live until the commit, holds by then.
@@ -30,6 +31,7 @@ class ZipFile {
     };
 
     AtomicFile file_;
+    bool deflates_;
     std::vector<Part> parts_;
 };
 

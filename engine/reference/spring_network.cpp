@@ -40,6 +40,7 @@ void check_supported(const SceneDescription& scene, const Cloth& cloth, const Ne
 
 SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options)
     : start_velocity(scene.cloths.at(cloth_index).velocity),
+      start_velocities(scene.cloths[cloth_index].velocities),
       gravity(gravity_at(scene, 0)),
       gravity_keys(scene.gravity_keys),
       damping(scene.cloths[cloth_index].damping),
@@ -185,7 +186,8 @@ std::vector<double> SpringNetwork::release_times() const {
 }
 
 NetworkState SpringNetwork::start() const {
-    NetworkState state{rest_position, std::vector<Vec3>(particle_count(), start_velocity)};
+    NetworkState state{rest_position, start_velocities};
+    if (start_velocities.empty()) state.velocity.assign(particle_count(), start_velocity);
     for (std::uint32_t p = 0; p < particle_count(); ++p) {
         if (!held(p, 0)) continue;
         state.position[p] = pinned_position(p, 0);
@@ -269,6 +271,7 @@ std::uint64_t SpringNetwork::fingerprint() const {
     for (const auto& triangle : triangles)
         for (const std::uint32_t p : triangle) hash.add(std::uint64_t{p});
     add(hash, start_velocity);
+    for (const Vec3& velocity : start_velocities) add(hash, velocity);
     add(hash, gravity);
     add(hash, gravity_keys);
     hash.add(damping);

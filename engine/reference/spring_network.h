@@ -86,6 +86,7 @@ struct SpringNetwork {
     std::vector<BendingElement> bending;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< triangles that feel wind
     Vec3 start_velocity{0, 0, 0};                         ///< m/s, of free particles
+    std::vector<Vec3> start_velocities;                   ///< the same by particle; empty: all have start_velocity
     Vec3 gravity{0, -9.81, 0};                            ///< m/s^2, of the potential energy: that at the start
     std::vector<VectorKey> gravity_keys;                  ///< m/s^2; empty: it stays
     double damping = 0;                                   ///< 1/s: acceleration -damping * velocity

@@ -15,7 +15,9 @@ namespace {
 
 /// Returns the hash of what the cloth has from files, whatever they are called.
 std::string given_hash(const Cloth& cloth) {
-    return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) + xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
+    return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) +
+           (cloth.velocities.empty() ? "" : xxh3_128_hex(std::as_bytes(std::span(cloth.velocities)))) +
+           xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_tear)));

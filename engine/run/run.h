@@ -45,6 +45,7 @@ struct RunRequest {
     std::function<void(std::span<const std::byte>)> stream;
     ExistingFiles existing = ExistingFiles::refuse;
     std::vector<std::string> formats{"png"};  ///< names in output/frame_writer.h's table
+    bool deflates = false;                    ///< archives are packed; some format must be one
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
     /// Seconds between checkpoints; a run that is stopped writes one too. Nothing: it writes none at all.

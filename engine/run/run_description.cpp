@@ -9,6 +9,7 @@
 #include "graph/dump.h"
 #include "output/json_text.h"
 #include "picture/strain_scale.h"
+#include "run/written_colliders.h"
 #include "scene/start.h"
 
 namespace drape {
@@ -112,8 +113,12 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.fps = scene.time.fps;
     run.cuts = scene.comes_apart();
     run.width = scene.image.size[0], run.height = scene.image.size[1];
+    run.deflates = request.deflates;
     run.key = manifest.run_key;
     run.seed = scene.wind.gust.seed;
+    run.up = scene.up;
+    run.colliders = written_colliders(scene);
+    run.obstacles = written_obstacles(scene);
     if (request.details()) {
         run.scene = resolved_text(request.scene, loaded);
         run.parameters = run_parameters(scene, manifest);

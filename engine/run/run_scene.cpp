@@ -30,6 +30,8 @@ void check_stream(const RunRequest& request) {
 /// Throws UsageError when a format cannot be written so, or cannot hold what the scene does.
 void check_formats(const RunRequest& request, const SceneDescription& scene) {
     if (request.stream) check_stream(request);
+    if (request.deflates && std::ranges::none_of(output_formats(request.formats), &OutputFormat::is_archive))
+        throw UsageError("--compress: no format that is written is an archive: npz is one");
     for (const OutputFormat* format : output_formats(request.formats))
         if (!format->follows_cuts && scene.comes_apart())
             throw UsageError(fmt::format("--export {}: its faces cannot change, but the scene has {}", format->name,

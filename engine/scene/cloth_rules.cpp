@@ -287,6 +287,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     if (members.fit({"grid", "size", "self_collision"}))
         fits = check_self_collision(members["self_collision"], cloth) && fits;
     if (members.fit({"grid", "size", "start"})) fits = take_start(members, cloth) && fits;
+    if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
         fits = check_resolution(members.object(), cloth) && fits;
         if (const double jitter = start_jitter(cloth); fits && jitter > cloth.placement.jitter)

@@ -68,8 +68,9 @@ void warn_of_cloth(const SceneNode& node, const Cloth& cloth) {
             .warn(fmt::format("a square metre of cloth \"{}\" weighs {:.4g} kg, and fabrics have .02 to 2 kg: divide "
                               "grams by 1000",
                               cloth.name, cloth.areal_density));
-    if (const double speed = length(cloth.velocity); speed > 10 * fast)
-        node.member("velocity").warn(fmt::format("cloth \"{}\" starts at {:.4g} m/s: {}", cloth.name, speed, metres));
+    if (const double speed = start_speed(cloth); speed > 10 * fast)
+        node.member(cloth.velocities.empty() ? "velocity" : "velocities")
+            .warn(fmt::format("cloth \"{}\" starts at {:.4g} m/s: {}", cloth.name, speed, metres));
     for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
         warn_of_far(node.member("pins").element(pin).member("path"), cloth.pins[pin].path);
 }

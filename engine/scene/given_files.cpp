@@ -115,6 +115,24 @@ bool take_start(const Members& members, Cloth& cloth) {
     return true;
 }
 
+bool take_velocities(const Members& members, Cloth& cloth) {
+    const SceneNode node = members["velocities"];
+    if (!node) return true;
+    if (const SceneNode velocity = members["velocity"])
+        return velocity.fail("expected velocity or velocities, got both");
+    std::string name;
+    if (!node.read(name) || is_too_large(cloth)) return true;
+    try {
+        cloth.velocities = input::read_velocities(node.file(name), cloth.grid[0], cloth.grid[1]);
+    } catch (const OutputError& error) {
+        return node.fail(error.what());
+    }
+    const std::string fault = velocities_fault(cloth);
+    if (fault.empty()) return true;
+    cloth.velocities.clear();
+    return node.fail(fmt::format("expected {} in '{}'", fault, name));
+}
+
 bool take_maps(const Members& members, Cloth& cloth) {
     const SceneNode node = members["maps"];
     if (!node || is_too_large(cloth)) return true;

@@ -220,7 +220,8 @@ const Object<Cloth> cloth{
          "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "
          "[frames, rows, columns, 3], float32 or float64), .npz (its array positions, as drape writes it), .obj (a "
          "vertex for each particle, row by row) or .pc2; of several frames the last. At rest the cloth is still flat "
-         "and of its size. It starts without speed, or with velocity. A relative name is looked for beside the scene "
+         "and of its size. It starts without speed, or with velocity or velocities. A relative name is looked for "
+         "beside the scene "
          "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
@@ -241,6 +242,10 @@ const Object<Cloth> cloth{
          "manifest says whether that was proved. Triangles that are split meet nothing. A cloth that meets "
          "itself may not start gathered on a line or in a point."},
         {"velocity", &Cloth::velocity, vec3, "m/s, of all particles at the start."},
+        {"velocities", text().text, read_text<Cloth>,
+         "File that says how fast every particle starts, in m/s, instead of velocity: .npy (shaped as that of start) "
+         "or .npz (its array velocities, as drape writes it); of several frames the last. With start from the same "
+         "archive a run goes on where another ended: all but what a method knows of the substeps before."},
         {"tear", &Cloth::tear, optional<Tear>(tear),
          "What the cloth bears before it tears. Absent: whatever pulls at it. A tear is a line: it goes on from where "
          "the cloth is torn or cut, and only in a piece where none goes on a new one begins."},

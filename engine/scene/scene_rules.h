@@ -38,6 +38,8 @@ struct MapFiles {
 };
 /// Reads the start of a cloth whose grid and size are known, from the file that it names.
 bool take_start(const Members& members, Cloth& cloth);
+/// Reads likewise the velocities with which it starts.
+bool take_velocities(const Members& members, Cloth& cloth);
 /// Reads the maps of a cloth whose grid is known: holes become boxes, the others factors of cells.
 bool take_maps(const Members& members, Cloth& cloth);
 

@@ -243,6 +243,17 @@ std::vector<Vec3> start_positions(const Cloth& cloth) {
     return positions;
 }
 
+Vec3 start_velocity(const Cloth& cloth, std::size_t particle) {
+    return cloth.velocities.empty() ? cloth.velocity : cloth.velocities[particle];
+}
+
+double start_speed(const Cloth& cloth) {
+    if (cloth.velocities.empty()) return length(cloth.velocity);
+    double largest = 0;
+    for (const Vec3& velocity : cloth.velocities) largest = std::max(largest, length(velocity));
+    return largest;
+}
+
 double start_untied(const Cloth& cloth) {
     if (!may_be_tied(cloth)) return 0;
     const std::vector<Vec3> tied = jittered_positions(cloth), untied = start_positions(cloth);
@@ -280,6 +291,17 @@ StartRatios start_ratios(const Cloth& cloth, std::size_t axis) {
         ++count;
     });
     return count > 0 ? StartRatios{ratios.mean / count, ratios.largest} : StartRatios{};
+}
+
+std::string velocities_fault(const Cloth& cloth) {
+    const std::size_t columns = cloth.grid[0], count = columns * cloth.grid[1];
+    if (cloth.velocities.size() != count)
+        return fmt::format("a velocity for each of the {} particles, got {}", count, cloth.velocities.size());
+    for (std::size_t i = 0; i < count; ++i)
+        for (const double x : cloth.velocities[i])
+            if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+                return fmt::format("finite velocities, got {:g} for particle [{}, {}]", x, i % columns, i / columns);
+    return {};
 }
 
 std::string start_fault(const Cloth& cloth) {

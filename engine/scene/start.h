@@ -38,6 +38,11 @@ struct StartBox {
 };
 StartBox start_box(const Cloth& cloth);
 
+/// Returns the velocity with which a particle that no pin holds starts, m/s.
+Vec3 start_velocity(const Cloth& cloth, std::size_t particle);
+/// Returns the largest of them, m/s.
+double start_speed(const Cloth& cloth);
+
 /// Returns the height of the cloth's triangles without jitter, m; of a given shape that of the highest.
 double start_height(const Cloth& cloth);
 
@@ -65,5 +70,7 @@ StartRatios start_ratios(const Cloth& cloth, std::size_t axis);
 /// Returns what is wrong with a given shape, to follow "expected": not a place for every particle, one that is no
 /// number, two particles in one place, triangles that are all too thin. Empty: nothing.
 std::string start_fault(const Cloth& cloth);
+/// Returns what is wrong with given velocities, likewise: not one for every particle, or one that is no number.
+std::string velocities_fault(const Cloth& cloth);
 
 }  // namespace drape

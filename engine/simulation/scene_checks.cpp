@@ -73,6 +73,8 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
         const Cloth& cloth = scene.cloths[i];
         const std::string at = fmt::format("/cloths/{}", i);
         if (!cloth.start.empty()) expect(start_fault(cloth).empty(), at + "/start", start_fault(cloth).c_str());
+        if (!cloth.velocities.empty())
+            expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
         expect(has_factors(cloth, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
                "a factor of at most 1, and not 0, for every cell");
         expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",

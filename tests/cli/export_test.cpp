@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "input/positions_file.h"
 #include "output/frame_writer.h"
 #include "program.h"
 #include "scenes.h"
@@ -33,7 +38,8 @@ TEST(Export, FormatsTogetherAreWhatEachIsAlone) {
         alone.merge(run(std::string(format->name)));
         all.insert(0, std::string(format->name) + ",");
     }
-    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 4 + 4 + 1 + 5 + 1);  // npy npz pc2 obj ply usda vtu mgn
+    // npy npz pc2, obj and ply with the plane, usda of cloth, plane and both, vtu with two collections, mgn
+    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 5 + 5 + 3 + 7 + 1);
     EXPECT_EQ(run(all), alone);
     EXPECT_EQ(alone.at("positions.pc2").substr(32), alone.at("positions.npy").substr(128));
     EXPECT_EQ(lasting_manifest(folder.out(all))["files"].size(), alone.size());
@@ -43,7 +49,7 @@ TEST(Export, TakesOneWordSoThatTheSceneMayFollow) {
     const SceneFolder folder(small_scene(2));
     const Outcome outcome = drape({"simulate", "-q", "-o", folder.out(), "--export", "obj,ply", folder.scene()});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(without_manifest(everything_below(folder.out())).size(), 4u);
+    EXPECT_EQ(without_manifest(everything_below(folder.out())).size(), 2u * (2 + 1));
     const Outcome twice =
         drape({"simulate", "-q", "-o", folder.out("twice"), "--export", "obj", "--export", "ply", folder.scene()});
     EXPECT_EQ(twice.code, 0) << twice.err;
@@ -80,7 +86,48 @@ TEST(Export, ResumingLeavesNoMeshOfAnotherRun) {
     ASSERT_EQ(
         drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--export", "obj", "-e", "1", "--resume"}).code,
         0);
-    EXPECT_THAT(names_in(folder.out()), testing::ElementsAre("manifest.json", "mesh_0000.obj", "mesh_0001.obj"));
+    EXPECT_THAT(names_in(folder.out()),
+                testing::ElementsAre("colliders.obj", "manifest.json", "mesh_0000.obj", "mesh_0001.obj"));
+}
+
+// The ball is where its path has it in the frame; what stands still is written once.
+TEST(Export, CollidersThatMoveHaveAFilePerFrame) {
+    const SceneFolder folder(R"({"time": {"frames": 91, "fps": 60}, "solver": {"method": "relax", "substeps": 4},
+        "cloths": [{"grid": [4, 4], "placement": {"origin": [0, 3, 0]}}],
+        "colliders": {"boxes": [{"center": [5, 0, 0]}],
+                      "spheres": [{"center": [0, 1, 0], "radius": 0.25, "path": [{"t": 0}, {"t": 1, "translate": [2, 0, 0]}]}]}})");
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--step", "30", "--export", "obj"}).code, 0);
+    EXPECT_THAT(names_in(folder.out()),
+                testing::ElementsAre("colliders.obj", "colliders_0000.obj", "colliders_0030.obj", "colliders_0060.obj",
+                                     "colliders_0090.obj", "manifest.json", "mesh_0000.obj", "mesh_0030.obj",
+                                     "mesh_0060.obj", "mesh_0090.obj"));
+    EXPECT_EQ(lasting_manifest(folder.out())["files"].size(), 9u);
+    EXPECT_THAT(read_text(folder / "out/colliders.obj"), testing::HasSubstr("\no collider_1_box\n"));
+    for (const auto& [frame, x] : std::map<std::string, double>{{"0000", 0}, {"0030", 1}, {"0060", 2}, {"0090", 2}}) {
+        std::istringstream lines(read_text(folder / ("out/colliders_" + frame + ".obj")));
+        double low = 1e9, high = -1e9;
+        for (std::string line; std::getline(lines, line);) {
+            double at = 0;
+            if (std::sscanf(line.c_str(), "v %lf", &at) != 1) continue;
+            low = std::min(low, at), high = std::max(high, at);
+        }
+        EXPECT_NEAR(low, x - 0.25, 1e-6) << frame;
+        EXPECT_NEAR(high, x + 0.25, 1e-6) << frame;
+    }
+}
+
+// Its last frame can still be the start of another run.
+TEST(Export, ArchivesMayBePacked) {
+    const SceneFolder folder(small_scene(4));
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out("plain"), "-q"}).code, 0);
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out("packed"), "-q", "--compress"}).code, 0);
+    EXPECT_EQ(read_text(folder / "packed/positions.npy"), read_text(folder / "plain/positions.npy"));
+    EXPECT_LT(read_text(folder / "packed/positions.npz").size(), read_text(folder / "plain/positions.npz").size() / 2);
+    const auto shape = [&](const char* run) { return input::read_positions(folder / run / "positions.npz", 8, 6); };
+    EXPECT_EQ(shape("packed"), shape("plain"));
+    const Outcome none = drape({"simulate", folder.scene(), "-o", folder.out("obj"), "--export", "obj", "--compress"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_THAT(none.err, testing::HasSubstr("--compress: no format that is written is an archive"));
 }
 
 TEST(Export, TheArchiveHasWhatMakesTheRunAgain) {

@@ -177,6 +177,16 @@ TEST_F(Sweep, TellsItsRunsAndRefusesOthers) {
     EXPECT_EQ(sweep({}, "full").code, 1);
 }
 
+// Processes of its own are told, too.
+TEST_F(Sweep, ItsArchivesMayBePacked) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 2,
+        "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
+    ASSERT_EQ(sweep({"-q"}).code, 0);
+    ASSERT_EQ(sweep({"-q", "--compress", "--jobs", "2"}, "packed").code, 0);
+    const std::string name = "/runs/0001/positions.npz";
+    EXPECT_LT(file("packed" + name).size(), file("out" + name).size() / 2);
+}
+
 TEST_F(Sweep, ItsDataSetOpensInPython) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 3,
         "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
@@ -186,8 +196,8 @@ TEST_F(Sweep, ItsDataSetOpensInPython) {
                                                         (folder / "out/dataset").string()})
                                .wait();
     EXPECT_EQ(loaded.code, 0) << loaded.err;
-    EXPECT_THAT(loaded.out, AllOf(HasSubstr("3 trajectories of 9 frames"), HasSubstr("'world_pos': [9, 48, 3]"),
-                                  HasSubstr("'cells': [1, 70, 3]")));
+    EXPECT_THAT(loaded.out, AllOf(HasSubstr("3 trajectories of 9 frames"), HasSubstr("'world_pos': [9, 129, 3]"),
+                                  HasSubstr("'cells': [1, 198, 3]")));
     write_text(folder / "scene.json",
                R"({"cloths": [{}], "gravity": [0, 0, 0], "cutters": [{"triangle": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
         "active": [0, 1]}]})");
@@ -198,6 +208,30 @@ TEST_F(Sweep, ItsDataSetOpensInPython) {
     const Outcome torn = sweep({"--dataset", "--resume"}, "torn");
     EXPECT_EQ(torn.code, 2);
     EXPECT_THAT(torn.err, HasSubstr("the scene has cloth that tears"));
+}
+
+TEST_F(Sweep, ItsDataSetHasObstaclesOfOneShapeThatMove) {
+    write_text(folder / "scene.json", R"({"time": {"frames": 5}, "solver": {"method": "relax", "substeps": 2},
+        "cloths": [{"grid": [4, 4], "placement": {"origin": [0, 3, 0]}}],
+        "colliders": {"spheres": [{"path": [{"t": 0}, {"t": 1, "translate": [1, 0, 0]}]}]}})");
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 2,
+        "vary": {"/colliders/spheres/0/radius": {"uniform": [0.1, 0.4]}}})");
+    const Outcome made = sweep({"--dataset", "-q"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    const auto load = [&](const std::string& name) {
+        return Running("/usr/bin/python3",
+                       {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py", (folder / name / "dataset").string()})
+            .wait();
+    };
+    const Outcome loaded = load("out");
+    EXPECT_EQ(loaded.code, 0) << loaded.err;
+    EXPECT_THAT(loaded.out, AllOf(HasSubstr("'world_pos': [5, 282, 3]"), HasSubstr("'cells': [1, 546, 3]")));
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/colliders/spheres":
+        {"grid": [[{"radius": 0.2}], [{"radius": 0.2}, {"radius": 0.3, "center": [2, 0, 0]}]]}}})");
+    ASSERT_EQ(sweep({"--dataset", "-q"}, "other").code, 0);
+    const Outcome two = load("other");
+    EXPECT_EQ(two.code, 0) << two.err;
+    EXPECT_THAT(two.out, HasSubstr("'world_pos': [5, -1, 3]"));
 }
 
 TEST_F(Sweep, TextInItsTableIsNoFormulaAndHoldsNoControlCharacter) {

@@ -36,6 +36,13 @@ void vary(Cloth& cloth) {
     }
 }
 
+/// Gives each particle of a cloth a velocity of its own, m/s.
+void throw_apart(Cloth& cloth) {
+    cloth.velocities.clear();
+    for (std::uint32_t particle = 0; particle < cloth.grid[0] * cloth.grid[1]; ++particle)
+        cloth.velocities.push_back({0.3 * std::sin(0.1 * particle), 0.01 * (particle % 7), 0.4 * std::cos(particle)});
+}
+
 constexpr SolverMethod methods[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
 
 TEST(TwinGivenTest, AFoldedStart) {
@@ -44,6 +51,16 @@ TEST(TwinGivenTest, AFoldedStart) {
         scene.solver.method = method;
         scene.cloths[0].stiffness.bend = 1e-4;
         fold(scene.cloths[0]);
+        compare(scene);
+    }
+}
+
+TEST(TwinGivenTest, AVelocityOfEachParticle) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        fold(scene.cloths[0]);
+        throw_apart(scene.cloths[0]);
         compare(scene);
     }
 }

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <numbers>
 #include <sstream>
 
 #include "output/frame_writer.h"
@@ -41,7 +43,8 @@ TEST_P(Format, OwnsTheNamesOfItsFilesAndRecordsThem) {
 
 TEST_P(Format, OwnsNoOtherNames) {
     for (const char* name : {"notes.txt", "positions", "positions.", "frame_1.png", "frame_a_0001.png", "mesh.obj",
-                             "mesh_1.obj", "faces_x.npy", "positionsX.npz", "positions_.npz", "manifest.json"})
+                             "mesh_1.obj", "faces_x.npy", "positionsX.npz", "positions_.npz", "manifest.json",
+                             "colliders_1.obj", "colliders_a_0001.obj", "collidersX.ply", "colliders.npz"})
         EXPECT_FALSE(GetParam()->owns(name)) << name;
 }
 
@@ -102,7 +105,9 @@ Mesh read_obj(const std::string& text) {
             if (key == "vt") mesh.uv.push_back(std::strtof(value.c_str(), nullptr));
             if (key == "f") {
                 const std::size_t slash = value.find('/');
-                EXPECT_EQ(value.substr(0, slash), value.substr(slash + 1));
+                if (slash != std::string::npos) {
+                    EXPECT_EQ(value.substr(0, slash), value.substr(slash + 1));
+                }
                 mesh.faces.push_back(static_cast<std::uint32_t>(std::stoul(value)) - 1);
             }
         }
@@ -120,7 +125,11 @@ Mesh read_ply(const std::string& bytes) {
         std::sscanf(line.c_str(), "element face %zu", &faces);
         if (line.starts_with("property")) properties.push_back(line.substr(line.rfind(' ') + 1));
     }
-    EXPECT_THAT(properties, ElementsAre("x", "y", "z", "s", "t", "vertex_indices"));
+    const bool has_uv = properties.size() > 4;
+    if (has_uv)
+        EXPECT_THAT(properties, ElementsAre("x", "y", "z", "s", "t", "vertex_indices"));
+    else
+        EXPECT_THAT(properties, ElementsAre("x", "y", "z", "vertex_indices"));
     Mesh mesh;
     const char* at = bytes.data() + bytes.find(end) + end.size();
     const auto take = [&at](auto& list, std::size_t count) {
@@ -128,7 +137,7 @@ Mesh read_ply(const std::string& bytes) {
         std::memcpy(list.data() + list.size() - count, at, count * sizeof list[0]);
         at += count * sizeof list[0];
     };
-    for (std::size_t i = 0; i < vertices; ++i) take(mesh.positions, 3), take(mesh.uv, 2);
+    for (std::size_t i = 0; i < vertices; ++i) take(mesh.positions, 3), take(mesh.uv, has_uv ? 2 : 0);
     for (std::size_t i = 0; i < faces; ++i) {
         EXPECT_EQ(*at++, 3);
         take(mesh.faces, 3);
@@ -153,7 +162,15 @@ void expect_meshes(const char* format, MeshReader read) {
         EXPECT_EQ(mesh("rag", frame).faces, two_cloths().cloths[1].faces);
     }
     EXPECT_EQ(mesh("flag", 10).uv, (Positions{0, 1, 0.5, 1, 1, 1, 0, 0, 0.5, 0, 1, 0}));
-    EXPECT_EQ(names_in(temporary.path()).size(), 6u);
+    EXPECT_EQ(names_in(temporary.path()).size(), 6u + 1 + 3);
+    const auto colliders = [&](const std::string& name) { return read(read_text(temporary / (name + "." + format))); };
+    const Mesh still = colliders("colliders"), moved = colliders("colliders_0010");
+    EXPECT_EQ(still.positions, (Positions{1, 3, 0, 0, 4, 0, 0, 3, 1}));
+    EXPECT_EQ(still.faces, (std::vector<std::uint32_t>{0, 1, 2}));
+    const auto c = static_cast<float>(std::cos(0.1 * std::numbers::pi)),
+               s = static_cast<float>(std::sin(0.1 * std::numbers::pi));
+    EXPECT_EQ(moved.positions, (Positions{c, 0.2f, -s, 0, 1.2f, 0, s, 0.2f, c}));
+    EXPECT_EQ(moved.faces, still.faces);
 }
 
 TEST(Obj, HasEveryParticleAndTheFacesOfItsFrame) { expect_meshes("obj", read_obj); }
@@ -221,6 +238,20 @@ TEST(Pc2, CountsTheSamplesThatCame) {
     EXPECT_EQ(cache.size(), 32u + 4 * 12);
 }
 
+// An object is found by its collider's name, and a file with many numbers its vertices through.
+TEST(Obj, HasAnObjectForEveryCollider) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    WrittenRun run = two_cloths();
+    run.colliders = {triangle_collider(false), triangle_collider(false)};
+    run.colliders[1].name = "collider_1_mesh";
+    write(*find_output_format("obj")->open(folder, run));
+    const std::string text = read_text(temporary / "colliders.obj");
+    EXPECT_LT(text.find("o collider_0_mesh\n"), text.find("o collider_1_mesh\n"));
+    EXPECT_EQ(read_obj(text).faces, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(names_in(temporary.path()).size(), 6u + 1);
+}
+
 TEST(Npz, NumpyReadsIt) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
     const TemporaryFolder temporary;
@@ -256,6 +287,71 @@ assert archive.testzip() is None
 assert all(part.date_time == (1980, 1, 1, 0, 0, 0) for part in archive.infolist())
 )");
     EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
+}
+
+// A run of frames that are alike shows that something is packed.
+TEST(Npz, NumpyReadsAPackedOneLikeAnyOther) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path()), packed(temporary / "packed");
+    WrittenRun run = two_cloths();
+    run.scene = std::string(20000, ' ');
+    for (const char* format : {"npz", "mgn"}) {
+        run.deflates = false;
+        write(*find_output_format(format)->open(folder, run));
+        run.deflates = true;
+        write(*find_output_format(format)->open(packed, run));
+    }
+    write_text(temporary / "check.py", R"(
+import numpy as n, os, zipfile
+for name in ("positions_flag.npz", "positions_rag.npz", "trajectory.npz"):
+    one, packed = n.load(name), n.load("packed/" + name)
+    assert one.files == packed.files
+    for key in one.files:
+        assert one[key].dtype == packed[key].dtype and n.array_equal(one[key], packed[key], equal_nan=one[key].dtype.kind == "f")
+    assert all(part.compress_type == zipfile.ZIP_DEFLATED for part in zipfile.ZipFile("packed/" + name).infolist())
+    assert all(part.compress_type == zipfile.ZIP_STORED for part in zipfile.ZipFile(name).infolist())
+assert os.path.getsize("packed/positions_flag.npz") < 0.2 * os.path.getsize("positions_flag.npz")
+)");
+    EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
+}
+
+TEST(Mgn, NumpyReadsCollidersAsObstacles) {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write("mgn", folder);
+    write("npy", folder);
+    write_text(temporary / "check.py", R"(
+import numpy as n
+run = n.load("trajectory.npz")
+assert run["node_type"][0, :, 0].tolist() == 10 * [0] + 6 * [1]
+assert run["cells"][0, -2:].tolist() == [[10, 11, 12], [13, 14, 15]] and run["cells"].max() == 15
+assert (run["mesh_pos"][0, 10:] == 0).all() and run["mesh_pos"].shape == (1, 16, 2)
+world = run["world_pos"]
+assert world.shape == (3, 16, 3)
+assert (world[:, :6] == n.load("positions_flag.npy").reshape(3, 6, 3)).all()
+assert (world[:, 10:13] == [[1, 3, 0], [0, 4, 0], [0, 3, 1]]).all()
+assert (world[:, 14] == [[0, n.float32(1 + f / 50), 0] for f in (10, 12, 14)]).all()
+angle = n.pi / 2 * n.array([10, 12, 14]) / 50
+assert n.allclose(world[:, 13], n.transpose([n.cos(angle), n.array([10, 12, 14]) / 50, -n.sin(angle)]), atol=1e-7)
+)");
+    EXPECT_EQ(std::system(fmt::format("cd {} && /usr/bin/python3 check.py", temporary.path().string()).c_str()), 0);
+}
+
+// A triangle has as many corners as before; eight pieces of each edge have nodes between them.
+TEST(WrittenColliders, FlatOnesGetNodes) {
+    WrittenCollider flat = triangle_collider(false);
+    EXPECT_EQ(with_nodes(flat).vertices.size(), 3u);
+    flat.flat = true;
+    const WrittenCollider divided = with_nodes(flat);
+    EXPECT_EQ(divided.faces.size(), 3u * 64);
+    EXPECT_EQ(divided.vertices.size(), 45u);
+    for (const Vec3& at : divided.vertices) {
+        EXPECT_EQ(at[0] + at[1] + at[2], 1);
+        for (const double x : at) EXPECT_EQ(x * 8, std::floor(x * 8));
+    }
+    EXPECT_EQ(placed_vertices(divided, 0).size(), 135u);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "temporary_folder.h"
 #include "written_runs.h"
@@ -109,6 +111,15 @@ for name in ("flag", "rag"):
 sets = [s.attrib for s in xml.parse("mesh.pvd").getroot()[0]]
 assert [(float(s["timestep"]), s["part"], s["file"]) for s in sets] == [
     (f / 50, str(p), "mesh_%s_%04d.vtu" % (n, f)) for f in (10, 12, 14) for p, n in enumerate(("flag", "rag"))], sets
+sets = [s.attrib for s in xml.parse("colliders.pvd").getroot()[0]]
+assert [(float(s["timestep"]), s["part"], s["file"]) for s in sets] == [
+    (f / 50, p, n) for f in (10, 12, 14) for p, n in (("0", "colliders.vtu"), ("1", "colliders_%04d.vtu" % f))], sets
+for number, name in enumerate(("colliders", "colliders_0014")):
+    meshes = [meshio.read("%s.%s" % (name, format)) for format in ("vtu", "obj", "ply")]
+    for mesh in meshes:
+        assert (n.float32(mesh.points) == meshes[0].points).all() and mesh.cells_dict["triangle"].tolist() == [[0, 1, 2]]
+    assert meshes[0].cell_data["collider"][0].ravel().tolist() == [number]
+assert (meshes[0].points[1] == [0, n.float32(1 + 14 / 50), 0]).all()
 )");
 }
 
@@ -151,6 +162,39 @@ TEST(Usda, HasPointsAndFacesByFrame) {
     EXPECT_EQ(list_after(rag, "", "int[] faceVertexIndices = "), (std::vector<float>{0, 2, 1, 1, 2, 3}));
     EXPECT_EQ(list_after(rag, "", "primvars:st = ").size(), 8u);
     EXPECT_EQ(list_after(rag, "extent.timeSamples", "        14: ").size(), 6u);
+}
+
+TEST(Usda, CollidersAreMeshesThatMatricesMove) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    write("usda", folder);
+    const std::string text = read_text(temporary / "colliders.usda"), scene = read_text(temporary / "scene.usda");
+    EXPECT_THAT(text, testing::StartsWith("#usda 1.0\n(\n    defaultPrim = \"colliders\"\n"));
+    for (const char* line :
+         {"    endTimeCode = 14\n", "    startTimeCode = 10\n", "def Xform \"colliders\"\n",
+          "    def Mesh \"collider_1_mesh\"\n",
+          "xformOp:transform = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 3, 0, 1))\n",
+          "        point3f[] points = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]\n", "int[] faceVertexIndices = [0, 1, 2]\n"})
+        EXPECT_THAT(text, testing::HasSubstr(line));
+    const std::size_t samples = text.find("xformOp:transform.timeSamples"), sample = text.find("14: ", samples);
+    const std::vector<float> matrix = numbers(text.substr(sample + 4, text.find('\n', sample) - sample - 4));
+    const auto c = static_cast<float>(std::cos(0.14 * std::numbers::pi)),
+               s = static_cast<float>(std::sin(0.14 * std::numbers::pi));
+    EXPECT_EQ(matrix, (std::vector<float>{c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 0, 0.28f, 0, 1}));
+    for (const char* part : {"def \"flag\" (\n        references = @./positions_flag.usda@\n",
+                             "def \"colliders\" (\n        references = @./colliders.usda@\n"})
+        EXPECT_THAT(scene, testing::HasSubstr(part));
+}
+
+// A scene of several files has one that holds them.
+TEST(Usda, SeveralClothsAreOneScene) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    WrittenRun run = two_cloths();
+    run.colliders.clear();
+    write(*find_output_format("usda")->open(folder, run));
+    EXPECT_THAT(names_in(temporary.path()),
+                testing::ElementsAre("positions_flag.usda", "positions_rag.usda", "scene.usda"));
 }
 
 // The file's time ends where the run ends.

@@ -1,7 +1,9 @@
 // The tests of output formats write this small run, with a cut in it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -11,7 +13,22 @@ namespace drape {
 
 using Positions = std::vector<float>;  ///< x y z per particle
 
-/// Two cloths, of 3 x 2 and 2 x 2 particles; the first loses a triangle with frame 12.
+/// Returns a triangle that stands still, or rises by 1 m/s while it turns a quarter about y in a second.
+inline WrittenCollider triangle_collider(bool moves) {
+    WrittenCollider one{.name = moves ? "collider_1_mesh" : "collider_0_mesh",
+                        .number = moves ? 1 : 0,
+                        .vertices = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                        .faces = {0, 1, 2},
+                        .moves = moves};
+    one.placement = [moves](double time) -> Placement3x4 {
+        const double angle = moves ? time * std::numbers::pi / 2 : 0, c = std::cos(angle), s = std::sin(angle);
+        return {{{c, 0, s, 0}, {0, 1, 0, moves ? time : 3}, {-s, 0, c, 0}}};
+    };
+    return one;
+}
+
+/// Two cloths, of 3 x 2 and 2 x 2 particles; the first loses a triangle with frame 12. A collider moves, another does
+/// not.
 inline WrittenRun two_cloths() {
     WrittenRun run;
     run.start = 10, run.end = 14, run.step = 2, run.fps = 50, run.cuts = true;
@@ -20,6 +37,7 @@ inline WrittenRun two_cloths() {
     run.cloths = {{"flag", 3, 2, {0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5}, "flag"},
                   {"rag", 2, 2, {0, 2, 1, 1, 2, 3}, "2nd rag"}};
     run.cloths[1].up = Up::z;
+    run.colliders = run.obstacles = {triangle_collider(false), triangle_collider(true)};
     return run;
 }
 

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "base/vectors.h"
 #include "drape/scene_reader.h"
 #include "scene/contact_shape.h"
@@ -96,6 +99,32 @@ TEST_F(GivenFiles, WhatIsWrongWithAStartIsSaidWhereItIsNamed) {
     EXPECT_THAT(errors(R"("start": "shape.npy")"), IsEmpty());
     put_start(wavy_sheet(4, 3, 0.5, 1e8));
     EXPECT_THAT(errors(R"("start": "shape.npy")"), ElementsAre(HasSubstr("thinner than single precision tells")));
+}
+
+TEST_F(GivenFiles, VelocitiesAreReadAndWhatIsWrongWithThemIsSaid) {
+    std::vector<float> values;
+    for (int i = 0; i < 36; ++i) values.push_back(0.25f * static_cast<float>(i));
+    write_text(folder_ / "motion.npy", npy_of("<f4", "3, 4, 3", values));
+    const SceneResult result = read(R"("velocities": "motion.npy")");
+    ASSERT_TRUE(result.scene) << result.errors[0].text();
+    EXPECT_EQ(result.files, std::vector<std::string>{"motion.npy"});
+    const Cloth& cloth = result.scene->cloths[0];
+    ASSERT_EQ(cloth.velocities.size(), 12u);
+    EXPECT_EQ(start_velocity(cloth, 5), (Vec3{3.75, 4, 4.25}));
+    EXPECT_EQ(start_speed(cloth), length(Vec3{8.25, 8.5, 8.75}));
+    EXPECT_THAT(errors(R"("velocity": [0, 0, 1], "velocities": "motion.npy")"),
+                ElementsAre(HasSubstr(":2:13: /cloths/0/velocity: expected velocity or velocities, got both")));
+    EXPECT_THAT(errors(R"("velocities": "none.npz")"), ElementsAre(HasSubstr("/cloths/0/velocities: cannot read")));
+    EXPECT_THAT(errors(R"("velocities": "motion.obj")"),
+                ElementsAre(HasSubstr("velocities are read from .npy and .npz")));
+    values[20] = std::numeric_limits<float>::infinity();
+    write_text(folder_ / "motion.npy", npy_of("<f4", "3, 4, 3", values));
+    EXPECT_THAT(errors(R"("velocities": "motion.npy")"),
+                ElementsAre(HasSubstr("expected finite velocities, got inf for particle [2, 1] in 'motion.npy'")));
+    std::ranges::fill(values, 1000.0f);
+    write_text(folder_ / "motion.npy", npy_of("<f4", "3, 4, 3", values));
+    EXPECT_THAT(texts(read(R"("velocities": "motion.npy")").warnings),
+                ElementsAre(HasSubstr("/cloths/0/velocities: cloth \"cloth\" starts at 1732 m/s")));
 }
 
 TEST_F(GivenFiles, AnotherUnitIsWarnedOf) {

@@ -244,7 +244,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"wind", {"keys"}},
         {"wind_key", {"t", "velocity"}},
         {"gravity_key", {"t", "gravity"}},
-        {"cloth", {"name", "fabric", "start", "tear", "maps"}},
+        {"cloth", {"name", "fabric", "start", "velocities", "tear", "maps"}},
         {"tear", {"strain", "tension"}},
         {"maps", {"holes", "stiffness", "density", "tear"}},
         {"self_collision", {"thickness", "friction"}},

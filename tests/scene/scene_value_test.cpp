@@ -75,6 +75,8 @@ TEST(SceneValues, FilesOfTheFullScene) {
     ASSERT_EQ(given.start.size(), 15u);
     EXPECT_EQ(given.start[0], (Vec3{9, 9, 0}));
     EXPECT_EQ(given.start[8], (Vec3{10, 8.5, 0.125}));
+    ASSERT_EQ(given.velocities.size(), 15u);
+    EXPECT_EQ(given.velocities[8], (Vec3{0.5, 0.625, 0.75}));
     EXPECT_EQ(given.placement.v, (Vec3{0, 0, -1})) << "the default of a world with z up";
     // The picture's cells are 0, 1, 1, 1 over 1, 0.4, 1, 0.
     const Cloth& mapped = scene.cloths[3];

@@ -31,6 +31,7 @@ struct SweepOptions {
         return devices.empty() ? std::string() : devices[process % devices.size()];
     }
     std::vector<std::string> formats{"npz"};
+    bool deflates = false;
     std::string indices;
     std::uint32_t jobs = 0;
     bool dataset = false, resume = false, collect = false, list = false, count = false, quiet = false;
@@ -72,6 +73,7 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     request.existing = ExistingFiles::overwrite;
     request.formats = options.formats;
     if (options.dataset) request.formats = {"mgn"};
+    request.deflates = options.deflates;
     request.quiet = true;
     request.message = print_message;
     request.stop = stop_requested;
@@ -214,6 +216,7 @@ std::vector<std::string> command_of(const SweepOptions& options, const std::vect
         "drape", "sweep", options.spec, "-o", options.output, "--index", fmt::format("{}", fmt::join(indices, ","))};
     if (!options.devices.empty()) command.insert(command.end(), {"--device", options.device(process)});
     if (options.dataset) command.emplace_back("--dataset");
+    if (options.deflates) command.emplace_back("--compress");
     command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
     return command;
 }
@@ -343,6 +346,7 @@ void add_sweep(Program& program) {
     add_option(command, "--index", "I,...", "Only these runs, here: 7, 0-99 or 1,5,9-12", options->indices);
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
     add_format_option(command, "What each run writes; default: npz", options->formats);
+    add_compress_option(command, options->deflates);
     add_flag(command, "--dataset",
              "The layout of MeshGraphNets' flag_simple instead: dataset/meta.json and a trajectory per run",
              options->dataset);

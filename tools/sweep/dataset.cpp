@@ -11,6 +11,7 @@
 #include "output/atomic_file.h"
 #include "output/json_text.h"
 #include "run/run.h"
+#include "run/written_colliders.h"
 
 namespace drape::sweep {
 
@@ -33,12 +34,18 @@ std::optional<Shape> shape_of(const SweepSpec& spec, std::uint32_t index) {
         shape.cells +=
             cloth.holes.empty() ? 2 * (std::int64_t{cloth.grid[0]} - 1) * (cloth.grid[1] - 1) : -1'000'000'000;
     }
+    for (const WrittenCollider& obstacle : written_obstacles(*result.scene)) {
+        shape.nodes += static_cast<std::int64_t>(obstacle.vertices.size());
+        shape.cells += static_cast<std::int64_t>(obstacle.faces.size() / 3);
+    }
     return shape;
 }
 
 /// Whether the value may decide a shape. Of a scene with any other all runs have that of one.
 bool shapes(const std::string& pointer) {
-    static const std::regex pointers("/(time|time/(fps|frames)|cloths|cloths/[^/]*|cloths/[^/]*/(grid|holes)(/.*)?)");
+    static const std::regex pointers(
+        "/(time|time/(fps|frames)|cloths|cloths/[^/]*|cloths/[^/]*/(grid|holes)(/.*)?|"
+        "colliders(/[^/]*(/[^/]*)?)?|colliders/meshes/.*)");
     return std::regex_match(pointer, pointers);
 }
 

@@ -1,4 +1,4 @@
-// The data set of a sweep, in the layout of MeshGraphNets' flag_simple (T. Pfaff et al., "Learning mesh-based
+// The data set of a sweep, in the layout of MeshGraphNets' cloth sets (T. Pfaff et al., "Learning mesh-based
 // simulation with graph networks", ICLR 2021): meta.json says what arrays a trajectory has.
 #pragma once
 

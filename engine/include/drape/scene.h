@@ -179,7 +179,9 @@ struct Cloth {
     ContactOf contact = ContactOf::surface;
     std::optional<SelfCollision> self_collision;  ///< nothing: the cloth passes through itself
     Vec3 velocity{0, 0, 0};                       ///< m/s
-    std::vector<IndexBox> holes;                  ///< boxes of particle indices whose inner cells are missing
+    /// m/s: of every particle at the start, row by row. Empty: all have `velocity`.
+    std::vector<Vec3> velocities;
+    std::vector<IndexBox> holes;  ///< boxes of particle indices whose inner cells are missing
     /// Factors of every cell, row by row; empty: 1. The stiffness is at most, the density at least what the cloth says.
     std::vector<float> cell_stiffness, cell_density;
     std::optional<Tear> tear;      ///< nothing: it holds whatever pulls at it

@@ -4,8 +4,9 @@
     tools/examples/sweep/load_dataset.py out/flag_simple/dataset
 
 Every trajectory has the arrays that meta.json lists, of the dtypes and shapes it says (-1: any); positions are finite,
-cells name nodes, nodes of type 3 (handles: pinned) stay where they start. Prints what was found; the exit code is not 0
-where it is otherwise. Needs python3-numpy.
+cells name nodes of cloth or of obstacles, nodes of type 3 (handles: pinned) stay where they start, and cells of obstacles
+(type 1: colliders) keep their edges as long as they are. Prints what was found; the exit code is not 0 where it is
+otherwise. Needs python3-numpy.
 """
 import glob
 import json
@@ -14,7 +15,7 @@ import sys
 
 import numpy
 
-HANDLE = 3
+OBSTACLE, HANDLE = 1, 3
 
 
 def trajectories(folder):
@@ -38,6 +39,13 @@ def check(name, arrays, meta):
         raise ValueError(f"{name}: a position is not finite")
     if cells.min() < 0 or cells.max() >= world.shape[1]:
         raise ValueError(f"{name}: a cell names a node that is not there")
+    solid = (types[cells] == OBSTACLE).all(axis=1)
+    if (types[cells[~solid]] == OBSTACLE).any():
+        raise ValueError(f"{name}: a cell is of cloth and of an obstacle")
+    sides = world[:, cells[solid]]
+    edges = numpy.linalg.norm(sides - numpy.roll(sides, 1, axis=2), axis=-1)
+    if not numpy.allclose(edges, edges[:1], rtol=0, atol=1e-6 * max(1, numpy.abs(world).max())):
+        raise ValueError(f"{name}: an obstacle changes its shape")
     held = world[:, types == HANDLE]
     if not numpy.array_equal(held, numpy.broadcast_to(held[:1], held.shape)):
         raise ValueError(f"{name}: a pinned node moves")

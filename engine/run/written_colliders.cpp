@@ -1,0 +1,61 @@
+#include "run/written_colliders.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "picture/collider_surface.h"
+
+namespace drape {
+
+namespace {
+
+constexpr int round_segments = 48, obstacle_segments = 24;
+
+/// The words of the kinds, in their order.
+constexpr std::string_view kind_names[] = {"plane", "sphere", "box", "ellipsoid", "capsule", "mesh"};
+static_assert(std::size(kind_names) == std::variant_size_v<ColliderShape>);
+
+Placement3x4 placement_at(const Collider& collider, double time) {
+    const ColliderPose pose = surface_pose(collider, time);
+    Placement3x4 rows;
+    for (std::size_t row = 0; row < 3; ++row)
+        rows[row] = {pose.rotation[3 * row], pose.rotation[3 * row + 1], pose.rotation[3 * row + 2], pose.center[row]};
+    return rows;
+}
+
+std::vector<WrittenCollider> colliders_of(const SceneDescription& scene, int segments) {
+    const PlaneSquare square = plane_square(scene);
+    std::vector<WrittenCollider> written;
+    for (const Collider& collider : scene.colliders) {
+        ColliderSurface surface = collider_surface(collider, segments, square);
+        const auto number = static_cast<std::int32_t>(written.size());
+        WrittenCollider one{
+            .name = fmt::format("collider_{}_{}", number, kind_names[collider.shape.index()]),
+            .number = number,
+            .vertices = std::move(surface.vertices),
+            .faces = {},
+            .flat = std::holds_alternative<Plane>(collider.shape) || std::holds_alternative<Box>(collider.shape),
+            .moves = collider.path.moves(),
+            .color = collider.color,
+            .placement = [collider](double time) { return placement_at(collider, time); }};
+        for (const auto& triangle : surface.triangles)
+            one.faces.insert(one.faces.end(), triangle.begin(), triangle.end());
+        written.push_back(std::move(one));
+    }
+    return written;
+}
+
+}  // namespace
+
+std::vector<WrittenCollider> written_colliders(const SceneDescription& scene) {
+    return colliders_of(scene, round_segments);
+}
+
+std::vector<WrittenCollider> written_obstacles(const SceneDescription& scene) {
+    std::vector<WrittenCollider> obstacles = colliders_of(scene, obstacle_segments);
+    for (WrittenCollider& obstacle : obstacles) obstacle = with_nodes(std::move(obstacle));
+    return obstacles;
+}
+
+}  // namespace drape
