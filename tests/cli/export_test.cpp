@@ -154,6 +154,39 @@ json.dump(scene, open("again.json", "w"))
     EXPECT_EQ(read_text(folder / "again/positions.npy"), read_text(folder / "out/positions.npy"));
 }
 
+/// A strip is drawn apart by its ends.
+constexpr const char* torn_strip = R"({"time": {"frames": 31}, "gravity": [0, 0, 0],
+  "cloths": [{"grid": [5, 13], "size": [0.1, 0.3], "tear": {"tension": 120}, "damping": 5,
+              "pins": [{"edge": "top"}, {"edge": "bottom", "path": [{"t": 0}, {"t": 0.5, "translate": [0, -0.06, 0]}]}]}],
+  "solver": {"method": "line", "substeps": 8}})";
+
+TEST(Export, WhatTearsIsToldOfAndIsNoTrajectory) {
+    const SceneFolder folder(torn_strip);
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--export", "obj"}).code, 0);
+    std::uint32_t torn = 0, split = 0, pieces = 0;
+    const Json::Value manifest = lasting_manifest(folder.out());
+    for (const Json::Value& cut : manifest["cuts"]) {
+        EXPECT_EQ(cut["torn"], cut["springs"]) << "there is no cutter";
+        torn += cut["torn"].asUInt();
+        split += cut["triangles"].asUInt();
+        pieces = cut["pieces"].asUInt();
+    }
+    EXPECT_GE(torn, 5u + 4u + 4u);
+    EXPECT_EQ(pieces, 2u);
+    const auto faces = [&](const std::string& frame) {
+        const std::string text = read_text(fs::path(folder.out()) / ("mesh_" + frame + ".obj"));
+        std::uint32_t count = 0;
+        for (std::size_t at = text.find("\nf "); at != text.npos; at = text.find("\nf ", at + 1)) ++count;
+        return count;
+    };
+    EXPECT_EQ(faces("0000"), 2u * 4 * 12);
+    EXPECT_EQ(faces("0030"), faces("0000") - split);
+    const Outcome refused =
+        drape({"simulate", folder.scene(), "-o", folder.out("trajectory"), "-q", "--export", "mgn"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, testing::HasSubstr("its faces cannot change, but the scene has cloth that tears"));
+}
+
 TEST(Video, IsAllThatStdoutGetsAndWhatAFileWouldHave) {
     const SceneFolder folder(small_scene(4));
     const Outcome piped = drape({"render", folder.scene(), "-o", "-"}, {.folder = folder.path()});

@@ -115,6 +115,19 @@ TEST(TearTest, ATearGoesOnBeforeAnotherBegins) {
     EXPECT_EQ(sheet.torn_count(), columns);
 }
 
+TEST(TearTest, OfTheSidesOfACellOneTearsInAFrame) {
+    Loaded sheet;
+    sheet.along_column(4, 7) = 1.2f;
+    sheet.tear();
+    sheet.along_column(5, 7) = 1.2f;
+    sheet.loads[7 * columns + 4].x = 1.1f;  // a side of the cell that the tear goes on from
+    sheet.tear();
+    EXPECT_TRUE(sheet.is_torn(5, 7));
+    EXPECT_FALSE(sheet.is_torn(4, 7, 0));
+    sheet.tear();
+    EXPECT_TRUE(sheet.is_torn(4, 7, 0)) << "it still bears too much";
+}
+
 TEST(TearTest, OnceATearMayHavePartedThePieceNothingElseOfItTears) {
     Loaded sheet;
     for (const std::uint32_t row : {2u, 8u}) {

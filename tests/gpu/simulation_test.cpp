@@ -264,6 +264,14 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
         scene.cloths[0].start.resize(std::size_t{scene.cloths[0].grid[0]} * scene.cloths[0].grid[1]);
     });
     refused("/cloths/0/cell_stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
+    refused("/cloths/0/cell_tear", [](SceneDescription& scene) { scene.cloths[0].cell_tear = {1, 0}; });
+    refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{}; });
+    refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{0.1, 5}; });
+    refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{-1, {}}; });
+    refused("/cloths/0/tear", [](SceneDescription& scene) {
+        scene.cloths[0].stiffness.rigid = true;
+        scene.cloths[0].tear = Tear{.strain = 0.1, .tension = {}};
+    });
     refused("/cloths/0/cell_density", [](SceneDescription& scene) {
         const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
         scene.cloths[0].cell_density.assign(std::size_t{grid[0] - 1} * (grid[1] - 1), 0.5f);
