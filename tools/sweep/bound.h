@@ -1,4 +1,4 @@
-// What bounds the time of a sweep.
+// The end of a sweep tells what bounded its time.
 #pragma once
 
 #include <chrono>
