@@ -263,6 +263,7 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
     refused("/cloths/0/start", [](SceneDescription& scene) {
         scene.cloths[0].start.resize(std::size_t{scene.cloths[0].grid[0]} * scene.cloths[0].grid[1]);
     });
+    refused("/cloths/0/velocities", [](SceneDescription& scene) { scene.cloths[0].velocities.resize(7); });
     refused("/cloths/0/cell_stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
     refused("/cloths/0/cell_tear", [](SceneDescription& scene) { scene.cloths[0].cell_tear = {1, 0}; });
     refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{}; });
