@@ -3,6 +3,7 @@
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/mesh_twin.h"
 #include "reference/triangles_around.h"
 #include "reference/twin.h"
 
@@ -106,6 +107,8 @@ void run_collide(const TwinPlace& where) {
     const CollisionPush& push = model.collision;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     const float recovery = step.leading ? push.contact.w : 0.0f;
+    const std::shared_ptr<const std::vector<vec4>> moving = twin_fields(scene, inputs);
+    const vec4* const fields = moving ? moving->data() : scene.mesh_fields.data();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
@@ -120,7 +123,7 @@ void run_collide(const TwinPlace& where) {
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, recovery, true, scene.mesh_fields.data());
+                                     push.contact.x, push.contact.y, recovery, true, fields);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;

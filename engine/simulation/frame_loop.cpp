@@ -161,7 +161,10 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     const FrameContents& has = contents(kind);
     const FrameNeeds wanted = needs(kind);
     solver_.declare(frame.graph, wanted, run);
-    if (has.simulates) solver_.add_simulation(frame.graph);
+    if (has.simulates)
+        solver_.add_simulation(frame.graph);
+    else if (wanted.statistics)
+        solver_.add_forms(frame.graph);
     if (has.searches_cuts) {
         solver_.add_cuts(frame.graph);
     } else {
