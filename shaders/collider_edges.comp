@@ -143,7 +143,11 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
                                       corner_at(last, collider), plane, collider, is_mesh);
         ++k;
     } while (near && k < triangles_around_particle);
-    return Led(taken_displacement(led.moved, taken, local, collider, push.contact.y),
+    vec3 surface = surface_displacement(collider, local);
+#ifdef MESHES
+    if (is_mesh) surface = mesh_displacement(collider, local);
+#endif
+    return Led(taken_displacement(led.moved, taken, surface, collider, push.contact.y),
                led.touched || ordered_dot(taken, taken) > 0.0f);
 }
 

@@ -8,6 +8,7 @@
 #include "cloth/frame_inputs.h"
 #include "cloth/frame_judgement.h"
 #include "cloth/hang.h"
+#include "mesh/mesh_sequence.h"
 #include "scene/collider_pose.h"
 #include "scene/gust.h"
 #include "scene/weather.h"
@@ -50,9 +51,17 @@ double of_pins(const ClothModel& cloth, double time, double step) {
     return most;
 }
 
+/// Between poses vertices go straight on: what they are accelerated by shows over the time from pose to pose.
+double of_form(const Mesh& mesh, double time, double step) {
+    const double apart = std::max(step, 1 / mesh.frames_per_second);
+    const auto at = [&](double t) { return pose_number(mesh, t); };
+    return 2 * mesh.sequence->farthest_off_middle(at(time - apart), at(time), at(time + apart)) / (apart * apart);
+}
+
 double of_colliders(const SceneDescription& scene, const ClothModel& cloth, double time, double step) {
     double most = 0;
     for (const Collider& collider : scene.colliders) {
+        if (collider.deforms()) most = std::max(most, of_form(std::get<Mesh>(collider.shape), time, step));
         if (!collider.path.moves()) continue;
         const double reach = std::min<double>(shape_geometry(collider.shape).reach, cloth.reach());
         most = std::max(most, acceleration([&](double t) { return collider_pose(collider, t); }, reach, time, step));

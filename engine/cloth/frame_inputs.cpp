@@ -77,6 +77,11 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
     return record;
 }
 
+void add_deformation(glsl::ColliderRecord& record, double share, double way) {
+    record.way_out.z = static_cast<float>(share);
+    record.way_out.w = static_cast<float>(record.way_out.w + way * 1.00001);
+}
+
 namespace {
 
 /// Returns h times its rate of change just before a time, by the backward difference of second order.
@@ -137,6 +142,11 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
     inputs.wind.clear();
     inputs.colliders.clear();
+    inputs.forms = model.mesh_fields.forms(frame_start, frame / scene.time.fps);
+    // Distances go from those at the frame's begin to those at its end at constant speed, whatever poses lie between.
+    std::vector<double> ways;
+    for (const Collider& collider : scene.colliders)
+        ways.push_back(deformed(collider, frame_start, frame / scene.time.fps) / scene.solver.substeps);
     inputs.pins.resize(model.cloths.size());
     for (std::vector<glsl::PinMotion>& pins : inputs.pins) pins.clear();
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
@@ -156,6 +166,8 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
                     inputs.colliders.push_back(collider_record(collider, start, end,
                                                                start < way_out.until ? way_out.normal : Vec3{},
                                                                model.mesh_fields.first(k)));
+                    if (collider.deforms())
+                        add_deformation(inputs.colliders.back(), (substep + 1.0) / scene.solver.substeps, ways[k]);
                 }
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "cloth/simulation_model.h"
@@ -23,15 +24,20 @@ int first_collider(const SimulationModel& model, const ClothModel& cloth, std::u
 std::array<std::uint32_t, glsl::collider_kind_count> kind_ends(const std::vector<Collider>& colliders);
 
 /// Returns what the device knows of a collider at the time `now`, and of its motion since `before`, s. `field`: a
-/// mesh's first texel (MeshFields).
+/// mesh's first texel (MeshFields). What it deforms by is not said.
 glsl::ColliderRecord collider_record(const Collider& collider, double before, double now, const Vec3& way_out = {},
                                      std::size_t field = 0);
+
+/// Says in a record which share of the frame is over when the substep ends, and that its surface moves so much farther
+/// in the substep, m, as it deforms.
+void add_deformation(glsl::ColliderRecord& record, double share, double way);
 
 struct FrameInputs {
     /// Per member and substep the wind, m/s, and where gravity changes, behind it, what gravity is more than at the
     /// start, m/s^2; empty without either.
     std::vector<glsl::vec4> wind;
     std::vector<glsl::ColliderRecord> colliders;     ///< per substep, list by list, in the scene's order
+    std::shared_ptr<const FormLists> forms;          ///< of meshes that deform; null: there are none
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 

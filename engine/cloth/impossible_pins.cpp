@@ -53,7 +53,8 @@ double depth_in(const Collider& collider, const ColliderPose& pose, const Vec3& 
 std::optional<HeldInside> deepest(const SimulationModel& model, const std::vector<Held>& held, double time) {
     std::optional<HeldInside> found;
     for (std::size_t index = 0; index < model.scene.colliders.size(); ++index) {
-        const Collider& collider = model.scene.colliders[index];
+        if (held.empty()) break;
+        const Collider collider = formed(model.scene.colliders[index], time);
         const ColliderPose pose = collider_pose(collider, time);
         HeldInside one{index, 0, 0};
         for (const Held& particle : held) {

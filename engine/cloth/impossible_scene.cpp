@@ -45,7 +45,8 @@ std::string name_of(const SimulationModel& model, std::size_t collider) {
 std::string pinched_between(const SimulationModel& model, const Cloth& cloth, std::size_t a, std::size_t b,
                             std::uint32_t frame) {
     const std::vector<Collider>& all = model.scene.colliders;
-    if (all[a].path.keys.empty() && all[b].path.keys.empty()) return {};  // they are where they were at the start
+    const auto stays = [](const Collider& each) { return each.path.keys.empty() && !each.deforms(); };
+    if (stays(all[a]) && stays(all[b])) return {};  // they are where they were at the start
     const double time = frame / model.scene.time.fps;
     const double room = room_between(all[a], all[b], time), at_start = room_between(all[a], all[b], 0);
     if (!(room < at_start)) return {};
@@ -84,7 +85,8 @@ std::string blown_away(const SimulationModel& model) {
 
 }  // namespace
 
-double room_between(const Collider& a, const Collider& b, double time) {
+double room_between(const Collider& one, const Collider& other, double time) {
+    const Collider a = formed(one, time), b = formed(other, time);
     const ColliderPose pose_a = collider_pose(a, time), pose_b = collider_pose(b, time);
     Vec3 on_a = pose_a.center, on_b = pose_b.center;
     double room = 0;

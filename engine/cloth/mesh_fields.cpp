@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <mutex>
+#include <utility>
 
 #include "drape/error.h"
+#include "mesh/mesh_sequence.h"
+#include "scene/collider_pose.h"
 #include "scene/field_plan.h"
 #include "scene/overlap.h"
 
@@ -12,10 +17,16 @@ namespace drape {
 
 namespace {
 
-void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
+constexpr std::size_t kept_forms = 3, kept_frames = 2;  ///< a frame has two forms, and the next one begins with one
+
+void append_head(const DistanceField& field, std::vector<glsl::vec4>& texels) {
     const auto at = [](double x) { return static_cast<float>(x); };
     texels.push_back({at(field.lower[0]), at(field.lower[1]), at(field.lower[2]), at(field.spacing)});
     texels.push_back({at(field.size[0]), at(field.size[1]), at(field.size[2]), 0});
+}
+
+void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
+    append_head(field, texels);
     const auto& [columns, rows, layers] = field.size;
     for (std::size_t z = 0; z < layers; ++z)
         for (std::size_t y = 0; y < rows; ++y) {
@@ -31,6 +42,87 @@ void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
 
 }  // namespace
 
+/// Meshes that deform, and what was told of their last forms, by the numbers of their poses.
+class MeshFields::Forms {
+  public:
+    void add(const Mesh& mesh, const FieldPlan& plan, std::size_t first_sample) {
+        FormedMesh& added = meshes_.emplace_back();
+        added.mesh = mesh;
+        added.field = empty_field(*mesh.shape, plan.spacing, plan.margin);
+        added.exact = exact_within(plan.spacing, plan.margin);
+        added.first_sample = first_sample;
+        const FormLists lists = *added.lists(0);
+        const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
+        added.count = {count(lists.nodes), count(lists.corners) / 3, count(lists.guesses), count(lists.sides)};
+    }
+
+    std::shared_ptr<const FormLists> of_frame(double from, double to) {
+        const std::lock_guard lock(mutex_);
+        for (const Frame& frame : recent_)
+            if (frame.from == from && frame.to == to) return frame.lists;
+        auto lists = std::make_shared<FormLists>();
+        for (FormedMesh& mesh : meshes_)
+            for (const double time : {from, to}) lists->append(*mesh.lists(time));
+        recent_.push_back({from, to, lists});
+        if (recent_.size() > kept_frames) recent_.pop_front();
+        return lists;
+    }
+
+    std::vector<glsl::FormPush> pushes(std::uint32_t substeps) const {
+        std::vector<glsl::FormPush> all;
+        glsl::ivec4 first{0, 0, 0, 0};
+        int distance = 0;
+        for (const FormedMesh& mesh : meshes_) {
+            glsl::FormPush& push = all.emplace_back(mesh.push());
+            push.first = first;
+            push.count = mesh.count;
+            push.substep = static_cast<float>(1.0 / substeps);
+            push.first_distance = distance;
+            first = {first.x + 2 * push.count.x, first.y + 6 * push.count.y, first.z + 2 * push.count.z,
+                     first.w + 2 * push.count.w};
+            distance += push.size.x * push.size.y * push.size.z;
+        }
+        return all;
+    }
+
+  private:
+    struct FormedMesh {
+        Mesh mesh;
+        DistanceField field;           ///< without its samples
+        double exact = 0;              ///< m
+        std::size_t first_sample = 0;  ///< texel
+        glsl::ivec4 count{};           ///< of one form: nodes, triangles, guesses, words of sides
+        std::deque<std::pair<double, std::shared_ptr<const FormLists>>> recent = {};
+
+        std::shared_ptr<const FormLists> lists(double time) {
+            const double pose = pose_number(mesh, time);
+            for (const auto& [number, known] : recent)
+                if (number == pose) return known;
+            recent.emplace_back(pose, std::make_shared<const FormLists>(form_lists(*mesh.sequence->at(pose), field)));
+            if (recent.size() > kept_forms) recent.pop_front();
+            return recent.back().second;
+        }
+
+        glsl::FormPush push() const {
+            const auto at = [](double x) { return static_cast<float>(x); };
+            const auto size = [&](std::size_t axis) { return static_cast<int>(field.size[axis]); };
+            glsl::FormPush push{};
+            push.lower = {at(field.lower[0]), at(field.lower[1]), at(field.lower[2]), at(field.spacing)};
+            push.size = {size(0), size(1), size(2), static_cast<int>(first_sample)};
+            push.exact = at(exact * exact);
+            push.half_shell = at(0.5 * mesh.shape->shell());
+            return push;
+        }
+    };
+    struct Frame {
+        double from, to;  ///< s
+        std::shared_ptr<const FormLists> lists;
+    };
+    std::mutex mutex_;
+    std::vector<FormedMesh> meshes_;
+    std::deque<Frame> recent_;
+};
+
 MeshFields::MeshFields(const SceneDescription& scene) {
     std::vector<glsl::vec4> texels;
     std::size_t points = 0;
@@ -39,17 +131,31 @@ MeshFields::MeshFields(const SceneDescription& scene) {
         if (!mesh) continue;
         if (!mesh->shape) throw Error("a mesh among the colliders was not read (read_file of drape/scene_reader.h)");
         const FieldPlan plan = field_plan(scene, scene.colliders[k]);
-        points += plan.points;
+        points += plan.texels;
         if (points > most_field_points)
             throw Error(fmt::format("the distances to the scene's meshes need {} points up to {}, and have room for {}",
                                     points, mesh->file, most_field_points));
-        const std::shared_ptr<const DistanceField> field = distance_field(mesh->shape, plan.spacing, plan.margin);
         first_.resize(k + 1);
         first_[k] = texels.size();
         spacings_.push_back({k, plan.wanted, plan.spacing, 2 * mesh->shape->inner_radius()});
-        append(*field, texels);
+        if (!mesh->sequence) {
+            append(*distance_field(mesh->shape, plan.spacing, plan.margin), texels);
+            continue;
+        }
+        if (!forms_) forms_ = std::make_shared<Forms>();
+        append_head(empty_field(*mesh->shape, plan.spacing, plan.margin), texels);
+        forms_->add(*mesh, plan, texels.size());
+        texels.resize(texels.size() + plan.texels);
     }
     if (!texels.empty()) texels_ = std::make_shared<const std::vector<glsl::vec4>>(std::move(texels));
+}
+
+std::shared_ptr<const FormLists> MeshFields::forms(double from, double to) const {
+    return forms_ ? forms_->of_frame(from, to) : nullptr;
+}
+
+std::vector<glsl::FormPush> MeshFields::form_pushes(std::uint32_t substeps) const {
+    return forms_ ? forms_->pushes(substeps) : std::vector<glsl::FormPush>{};
 }
 
 std::vector<Compromise> MeshFields::compromises(const SceneDescription& scene) const {
@@ -64,13 +170,13 @@ std::vector<Compromise> MeshFields::compromises(const SceneDescription& scene) c
                              each.thickness, each.spacing, each.thickness / 4),
                  0});
         else if (each.spacing > 2 * each.wanted)
-            all.push_back(
-                {fmt::format("detail of {}", mesh),
-                 fmt::format("distances to it are known every {:.3g} m, as a field of 2 million points allows, "
-                             "and cloth has particles every {:.3g} m; a \"spacing\" that is asked for may "
-                             "take more",
-                             each.spacing, 2 * each.wanted),
-                 0});
+            all.push_back({fmt::format("detail of {}", mesh),
+                           fmt::format("distances to it are known every {:.3g} m, as a field of {} points allows, "
+                                       "and cloth has particles every {:.3g} m; a \"spacing\" that is asked for may "
+                                       "take more",
+                                       each.spacing, scene.colliders[each.collider].deforms() ? "262144" : "2 million",
+                                       2 * each.wanted),
+                           0});
     }
     return all;
 }

@@ -7,7 +7,7 @@
 
 #include "drape/compromise.h"
 #include "drape/scene.h"
-#include "mesh/distance_field.h"
+#include "mesh/form_lists.h"
 #include "shared/collider_types.h"
 
 namespace drape {
@@ -20,9 +20,17 @@ class MeshFields {
     explicit MeshFields(const SceneDescription& scene);
 
     bool empty() const { return !texels_; }
-    /// Returns them as texels (shared/collider_types.h).
+    /// Returns whether some mesh deforms, so that frames have texels of their own.
+    bool deform() const { return forms_ != nullptr; }
+    /// Returns them as texels (shared/collider_types.h), those of meshes that deform without samples: passes make them
+    /// anew for every frame (shared/form_types.h).
     const std::vector<glsl::vec4>& texels() const { return *texels_; }
     const glsl::vec4* data() const { return texels_ ? texels_->data() : nullptr; }
+    /// Returns what those passes need for a frame between two times, s; null where no mesh deforms. What of it stays
+    /// the same from the last frames that were asked for is not computed again.
+    std::shared_ptr<const FormLists> forms(double from, double to) const;
+    /// Returns the push constants of those passes, mesh by mesh.
+    std::vector<glsl::FormPush> form_pushes(std::uint32_t substeps) const;
     /// Returns the first texel of a collider's field; 0 for what is no mesh.
     std::size_t first(std::size_t collider) const { return collider < first_.size() ? first_[collider] : 0; }
     /// Returns what of the meshes their fields are too coarse for. `scene`: the one that they were made of.
@@ -35,7 +43,10 @@ class MeshFields {
         double thickness;        ///< m: of the body's thickest part, or of a shell
     };
 
+    class Forms;
+
     std::shared_ptr<const std::vector<glsl::vec4>> texels_;
+    std::shared_ptr<Forms> forms_;  ///< of meshes that deform; null: there are none
     std::vector<std::size_t> first_;
     std::vector<FieldSpacing> spacings_;
 };

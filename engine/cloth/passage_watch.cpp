@@ -69,10 +69,12 @@ struct Motion {
 /// Returns that of the frame that ends at `end`.
 Motion motion_of(const Collider& collider, double end, double h, std::uint32_t substeps) {
     Motion most;
-    if (!collider.path.moves()) return most;
+    if (!collider.moves()) return most;
+    const double deforms = deformed(collider, end - substeps * h, end) / substeps;
     for (const std::uint32_t substep : {0u, substeps / 2, substeps - 1}) {
         const double start = end - (substeps - substep) * h;
-        const glsl::ColliderRecord record = collider_record(collider, start, start + h);
+        glsl::ColliderRecord record = collider_record(collider, start, start + h);
+        add_deformation(record, 0, deforms);
         double squared = 0;
         for (const glsl::vec4& row : {record.change_x, record.change_y, record.change_z})
             squared += double(row.x) * row.x + double(row.y) * row.y + double(row.z) * row.z;

@@ -71,7 +71,7 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
 }
 
 void SimulationModel::add_colliders() {
-    colliders_move = std::ranges::any_of(scene.colliders, [](const Collider& each) { return each.path.moves(); });
+    colliders_move = std::ranges::any_of(scene.colliders, [](const Collider& each) { return each.moves(); });
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) {
         const Cloth& shape = scene.cloths[cloth];
         const std::vector<WayOut> out = ways_out(shape, scene.colliders, recovery_speed);
@@ -138,6 +138,9 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
         if (options.skip)
             all.push_back({"contact of particles with colliders out of their reach",
                            "bounds tell, in every substep, and leave the same bits"});
+        if (mesh_fields.deform())
+            all.push_back({"a tree over the triangles of a mesh in a form that it had in one of the last frames",
+                           "the one that was made then is taken again"});
         if (scene.colliders.size() == 1)
             all.push_back({"collision rounds after the first", "one collider cannot overlap another"});
     }

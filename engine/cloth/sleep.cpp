@@ -5,6 +5,7 @@
 
 #include "cloth/cut_topology.h"
 #include "cloth/frame_judgement.h"
+#include "scene/collider_pose.h"
 #include "scene/weather.h"
 
 namespace drape {
@@ -29,7 +30,8 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
     // The step after the last key still sees its motion in the velocities of pins and surfaces.
     const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };
-    return std::ranges::all_of(scene.colliders, still, &Collider::path) &&
+    const auto rests_too = [&](const Collider& each) { return rests(each, from - 1 / scene.time.fps, to); };
+    return std::ranges::all_of(scene.colliders, rests_too) &&
            std::ranges::all_of(model.cloths, [&](const ClothModel& cloth) {
                return std::ranges::all_of(cloth.dynamic_pins, still, &DynamicPin::path);
            });

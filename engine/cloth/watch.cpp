@@ -56,9 +56,9 @@ double pin_moved(const DynamicPin& pin, double reach, double from, double to) {
 }
 
 double collider_moved(const Collider& collider, double far, double from, double to) {
-    if (!collider.path.moves()) return 0;
+    if (!collider.moves()) return 0;
     const ColliderPose before = collider_pose(collider, from), now = collider_pose(collider, to);
-    return distance(before.center, now.center) +
+    return distance(before.center, now.center) + deformed(collider, from, to) +
            moved(before.rotation, now.rotation, std::min(shape_geometry(collider.shape).reach, far));
 }
 
@@ -98,7 +98,7 @@ double held_strain(const ClothModel& cloth) {
 }  // namespace
 
 Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {Drive{}}) {
-    const auto moving = [](const Collider& collider) { return collider.path.moves(); };
+    const auto moving = [](const Collider& collider) { return collider.moves(); };
     passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
     // Cloth that is led apart may be lifted.
     led_apart_ = model.self_contact && !model.self_contact->to_part.empty();
@@ -126,15 +126,15 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
     }
 }
 
-/// Returns the largest speed of anything that moves in this time, m/s: pins, centres of colliders.
+/// Returns the largest speed of anything that moves in this time, m/s: pins, centres of colliders, their forms.
 double Watch::pace(std::size_t cloth, double from, double to) const {
     double farthest = 0;
     for (const DynamicPin& pin : model_.cloths[cloth].dynamic_pins)
         farthest = std::max(farthest, pin_moved(pin, starts_[cloth].diagonal, from, to));
     for (const Collider& collider : model_.scene.colliders)
-        if (collider.path.moves())
-            farthest =
-                std::max(farthest, distance(collider_pose(collider, from).center, collider_pose(collider, to).center));
+        if (collider.moves())
+            farthest = std::max(farthest, deformed(collider, from, to) + distance(collider_pose(collider, from).center,
+                                                                                  collider_pose(collider, to).center));
     return farthest / (to - from);
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cstring>
 #include <string_view>
 
 #include "input/array_file.h"
 #include "input/file_source.h"
+#include "input/point_cache.h"
+#include "input/text_lines.h"
 
 namespace drape::input {
 
@@ -46,55 +46,6 @@ Positions array_positions(const std::filesystem::path& path, const GridSize& gri
     return positions;
 }
 
-/// Hands out the lines of a file, one after another.
-class Lines {
-  public:
-    explicit Lines(FileSource& file) : file_(file) {}
-
-    /// Returns whether there was another line.
-    bool next(std::string_view& line) {
-        constexpr std::size_t most_line = std::size_t{1} << 20;
-        ++number_;
-        for (;;) {
-            const std::size_t end = text_.find('\n', begin_);
-            if (end != text_.npos || (ended_ && begin_ < text_.size())) {
-                const std::size_t stop = std::min(end, text_.size());
-                line = std::string_view(text_).substr(begin_, stop - begin_);
-                begin_ = stop + 1;
-                return true;
-            }
-            if (ended_) return false;
-            text_.erase(0, begin_);
-            begin_ = 0;
-            const std::size_t had = text_.size();
-            if (had > most_line) throw unreadable(file_.name(), fmt::format("line {} is too long", number_));
-            text_.resize(had + 65536);
-            text_.resize(had + file_.read(text_.data() + had, 65536));
-            ended_ = text_.size() == had;
-        }
-    }
-    std::uint64_t number() const { return number_; }
-
-  private:
-    FileSource& file_;
-    std::string text_;
-    std::size_t begin_ = 0;
-    std::uint64_t number_ = 0;
-    bool ended_ = false;
-};
-
-bool read_vertex(std::string_view line, std::array<double, 3>& vertex) {
-    constexpr std::string_view blanks = " \t\r";
-    for (double& x : vertex) {
-        line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
-        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), x);
-        if (error != std::errc{}) return false;
-        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-        if (!line.empty() && blanks.find(line.front()) == blanks.npos) return false;
-    }
-    return true;
-}
-
 Positions mesh_vertices(const std::filesystem::path& path, const GridSize& grid) {
     FileSource file(path);
     Lines lines(file);
@@ -113,16 +64,7 @@ Positions mesh_vertices(const std::filesystem::path& path, const GridSize& grid)
 
 Positions cached_points(const std::filesystem::path& path, const GridSize& grid) {
     FileSource file(path);
-    struct {
-        char signature[12];
-        std::int32_t version, points;
-        float start, step;
-        std::int32_t samples;
-    } header{};
-    static_assert(sizeof header == 32);
-    if (file.read(reinterpret_cast<char*>(&header), sizeof header) != sizeof header ||
-        std::memcmp(header.signature, "POINTCACHE2", 12) != 0 || header.points < 0 || header.samples < 1)
-        throw unreadable(file.name(), "it is no point cache (PC2) with a sample");
+    const PointCacheHead header = read_head(file);
     if (static_cast<std::uint64_t>(header.points) != grid.count())
         throw of_another_shape(file.name(), grid, fmt::format("{} points", grid.count()),
                                fmt::format("{}", header.points));

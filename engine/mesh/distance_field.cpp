@@ -13,9 +13,6 @@ namespace {
 
 /// Cells around the body and its margin, for slopes.
 constexpr double further_cells = 2;
-/// Contact does not look farther than the margin beyond a surface; deeper inside, distances only have to lead out.
-double exact_within(double spacing, double margin) { return margin + further_cells * spacing; }
-
 std::array<std::uint32_t, 3> size_of(const MeshShape& shape, double spacing, double margin) {
     std::array<std::uint32_t, 3> size{};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -26,9 +23,8 @@ std::array<std::uint32_t, 3> size_of(const MeshShape& shape, double spacing, dou
 }
 
 DistanceField made(const MeshShape& shape, double spacing, double margin) {
-    DistanceField field{{}, spacing, size_of(shape, spacing, margin), {}};
+    DistanceField field = empty_field(shape, spacing, margin);
     const std::size_t columns = field.size[0], rows = field.size[1], layers = field.size[2];
-    for (std::size_t axis = 0; axis < 3; ++axis) field.lower[axis] = -0.5 * spacing * (field.size[axis] - 1);
     field.samples.resize(columns * rows * layers);
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
@@ -50,6 +46,14 @@ DistanceField made(const MeshShape& shape, double spacing, double margin) {
 }
 
 }  // namespace
+
+double exact_within(double spacing, double margin) { return margin + further_cells * spacing; }
+
+DistanceField empty_field(const MeshShape& shape, double spacing, double margin) {
+    DistanceField field{{}, spacing, size_of(shape, spacing, margin), {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) field.lower[axis] = -0.5 * spacing * (field.size[axis] - 1);
+    return field;
+}
 
 std::size_t field_points(const MeshShape& shape, double spacing, double margin) {
     double points = 1;

@@ -23,6 +23,15 @@ inline constexpr std::size_t usual_field_points = std::size_t{1} << 21;
 /// All fields of a scene have at most so many: 128 MiB on a device, what every one takes as a buffer.
 inline constexpr std::size_t most_field_points = std::size_t{1} << 23;
 
+/// A field that is made anew for every frame, of a mesh that deforms, has at most so many, unless its spacing is asked
+/// for.
+inline constexpr std::size_t usual_moving_points = std::size_t{1} << 18;
+
+/// Returns a field without its samples.
+DistanceField empty_field(const MeshShape& shape, double spacing, double margin);
+/// Returns how far from the body distances are exact, m: contact does not look farther than the margin beyond a
+/// surface; deeper inside, distances only have to lead out.
+double exact_within(double spacing, double margin);
 /// Returns how many points a field with this spacing has that goes `margin` (m) beyond the body.
 std::size_t field_points(const MeshShape& shape, double spacing, double margin);
 /// Returns the least spacing, not below `wanted`, with which a field has at most `most` points.

@@ -16,21 +16,6 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Makes corners in the same place one, and leaves triangles with three different ones.
-void weld(const std::vector<Vec3>& given, std::vector<Vec3>& vertices, std::vector<Triangle>& triangles) {
-    std::vector<std::uint32_t> order(given.size()), welded(given.size());
-    for (std::uint32_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::ranges::sort(
-        order, [&](std::uint32_t a, std::uint32_t b) { return std::pair(given[a], a) < std::pair(given[b], b); });
-    for (const std::uint32_t k : order) {
-        if (vertices.empty() || vertices.back() != given[k]) vertices.push_back(given[k]);
-        welded[k] = static_cast<std::uint32_t>(vertices.size() - 1);
-    }
-    for (Triangle& triangle : triangles)
-        for (std::uint32_t& corner : triangle) corner = welded[corner];
-    std::erase_if(triangles, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
-}
-
 /// How triangles meet at edges.
 class Edges {
   public:
@@ -116,23 +101,62 @@ void turn_one_way(std::vector<Triangle>& triangles) {
         if (turned[k] == 1) std::swap(triangles[k][1], triangles[k][2]);
 }
 
-/// Returns what a closed surface bounds, m^3; negative where it is inside out.
-double volume_of(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
-    double six = 0;
-    for (const Triangle& t : triangles) six += dot(vertices[t[0]], cross(vertices[t[1]], vertices[t[2]]));
-    return six / 6;
-}
-
 }  // namespace
 
-MeshShape::MeshShape(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles, std::optional<double> shell)
+MeshShape::MeshShape(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles, std::optional<double> shell,
+                     std::vector<std::uint32_t>* places)
     : triangles_(std::move(triangles)) {
-    weld(vertices, vertices_, triangles_);
+    weld(vertices, places);
     if (triangles_.empty()) throw MeshError("expected triangles with an area, got none");
     center();
     close_or_thicken(shell);
     tree_.emplace(vertices_, triangles_);
     find_inner_radius();
+}
+
+MeshShape::MeshShape(const MeshShape& form, std::vector<Vec3> vertices, const Vec3& lower, const Vec3& upper)
+    : vertices_(std::move(vertices)),
+      triangles_(form.triangles_),
+      middle_(times(0.5, plus(lower, upper))),
+      half_extents_(times(0.5, minus(upper, lower))),
+      shell_(form.shell_),
+      inner_radius_(form.inner_radius_) {
+    for (double& extent : half_extents_) extent += 0.5 * shell_;
+    for (Vec3& vertex : vertices_) vertex = minus(vertex, middle_);
+    tree_.emplace(vertices_, triangles_);
+}
+
+MeshShape::MeshShape(const MeshShape& form, std::vector<Vec3> vertices)
+    : vertices_(std::move(vertices)),
+      triangles_(form.triangles_),
+      middle_(form.middle_),
+      half_extents_(form.half_extents_),
+      shell_(form.shell_),
+      inner_radius_(form.inner_radius_) {
+    for (Vec3& vertex : vertices_) vertex = minus(vertex, middle_);
+    tree_.emplace(vertices_, triangles_);
+}
+
+/// Makes corners in the same place one, and leaves triangles with three different ones.
+void MeshShape::weld(const std::vector<Vec3>& given, std::vector<std::uint32_t>* places) {
+    std::vector<std::uint32_t> order(given.size()), welded(given.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::ranges::sort(
+        order, [&](std::uint32_t a, std::uint32_t b) { return std::pair(given[a], a) < std::pair(given[b], b); });
+    for (const std::uint32_t k : order) {
+        if (vertices_.empty() || vertices_.back() != given[k]) vertices_.push_back(given[k]);
+        welded[k] = static_cast<std::uint32_t>(vertices_.size() - 1);
+    }
+    for (Triangle& triangle : triangles_)
+        for (std::uint32_t& corner : triangle) corner = welded[corner];
+    std::erase_if(triangles_, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    if (places) *places = std::move(welded);
+}
+
+double MeshShape::volume() const {
+    double six = 0;
+    for (const Triangle& t : triangles_) six += dot(vertices_[t[0]], cross(vertices_[t[1]], vertices_[t[2]]));
+    return six / 6;
 }
 
 void MeshShape::center() {
@@ -170,11 +194,11 @@ void MeshShape::close_or_thicken(std::optional<double> shell) {
             "expected triangles that all turn one way seen from outside, got {} edges at which "
             "two cannot be made to: {}",
             closure.turned, closure.many > 0 ? "more than two triangles meet there" : "the surface has one side"));
-    const double volume = volume_of(vertices_, triangles_);
-    if (volume < 0)
+    const double bounded = volume();
+    if (bounded < 0)
         for (Triangle& triangle : triangles_) std::swap(triangle[1], triangle[2]);
     const double box = 8 * half_extents_[0] * half_extents_[1] * half_extents_[2];
-    if (!(std::abs(volume) > 1e-9 * box))
+    if (!(std::abs(bounded) > 1e-9 * box))
         throw MeshError(
             "expected a surface that bounds a body, got one that bounds nothing: give \"shell\", its "
             "thickness in metres, if it is to be a thin wall");
@@ -201,23 +225,28 @@ double MeshShape::distance(const Vec3& local) const {
     return one.front();
 }
 
-void MeshShape::distances(const Vec3& first, double step, double exact_within, std::vector<double>& row) const {
-    std::uint32_t nearest = 0;
-    for (std::size_t k = 0; k < row.size(); ++k)
-        row[k] = tree_->distance({first[0] + static_cast<double>(k) * step, first[1], first[2]}, exact_within, nearest);
-    if (shell_ > 0) {
-        for (double& distance : row) distance -= 0.5 * shell_;
-        return;
-    }
+std::vector<bool> MeshShape::inside(const Vec3& first, double step, std::size_t count) const {
+    std::vector<bool> all(count);
+    if (shell_ > 0) return all;
     std::vector<LinePassage> passages;
     tree_->passages(first[1], first[2], passages);
     std::ranges::sort(passages, {}, &LinePassage::x);
-    int inside = 0;
+    int turns = 0;
     std::size_t next = 0;
-    for (std::size_t k = 0; k < row.size(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         while (next < passages.size() && passages[next].x < first[0] + static_cast<double>(k) * step)
-            inside += passages[next++].turn;
-        if (inside != 0) row[k] = -row[k];
+            turns += passages[next++].turn;
+        all[k] = turns != 0;
+    }
+    return all;
+}
+
+void MeshShape::distances(const Vec3& first, double step, double exact_within, std::vector<double>& row) const {
+    std::uint32_t nearest = 0;
+    const std::vector<bool> is_inside = inside(first, step, row.size());
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        row[k] = tree_->distance({first[0] + static_cast<double>(k) * step, first[1], first[2]}, exact_within, nearest);
+        row[k] = is_inside[k] ? -row[k] : row[k] - 0.5 * shell_;
     }
 }
 

@@ -16,7 +16,14 @@ class MeshShape {
     /// Corners in the same place become one, triangles without an area go. `vertices` are in metres. A closed surface
     /// whose triangles do not turn one way is turned so, and one that is inside out is turned over. Throws MeshError
     /// where that is impossible, where nothing is left, and for an open surface without `shell`, its thickness in m.
-    MeshShape(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles, std::optional<double> shell);
+    /// `places`: becomes the number of the shape's vertex at each one given.
+    MeshShape(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles, std::optional<double> shell,
+              std::vector<std::uint32_t>* places = nullptr);
+    /// The same surface with its vertices elsewhere, in the frame of those that `form` was made of, m. `lower` and
+    /// `upper`: corners of a box that takes the place of its bounding box.
+    MeshShape(const MeshShape& form, std::vector<Vec3> vertices, const Vec3& lower, const Vec3& upper);
+    /// The same in the middle and with the bounding box that `form` has.
+    MeshShape(const MeshShape& form, std::vector<Vec3> vertices);
     MeshShape(const MeshShape&) = delete;
 
     /// The origin is the middle of the bounding box, m.
@@ -35,8 +42,14 @@ class MeshShape {
     /// Returns it for points of a line along x, from `first` on by `step`, m. Beyond `exact_within` it may be up to 2 %
     /// too far.
     void distances(const Vec3& first, double step, double exact_within, std::vector<double>& row) const;
+    /// Returns which of so many points of a line along x are inside a closed surface; none of a shell.
+    std::vector<bool> inside(const Vec3& first, double step, std::size_t count) const;
+    const TriangleTree& tree() const { return *tree_; }
+    /// Returns what a closed surface bounds, m^3; negative where it is inside out.
+    double volume() const;
 
   private:
+    void weld(const std::vector<Vec3>& given, std::vector<std::uint32_t>* places);
     void center();
     void close_or_thicken(std::optional<double> shell);
     void find_inner_radius();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/vectors.h"
@@ -10,7 +11,7 @@ namespace drape {
 
 namespace {
 
-constexpr std::size_t most_in_a_leaf = 4;
+constexpr std::size_t most_in_a_leaf = glsl::most_leaf_triangles;
 /// The tree is halved by numbers, so it is at most this deep.
 constexpr std::size_t deepest_level = 64;
 
@@ -56,6 +57,16 @@ int side_of(const Vec3& a, const Vec3& b, double y, double z) {
     const double side = (second[1] - first[1]) * (z - first[2]) - (second[2] - first[2]) * (y - first[1]);
     const int sign = side >= 0 ? 1 : -1;
     return swapped ? -sign : sign;
+}
+
+/// Returns a corner of a box in single precision, outside of it.
+glsl::vec4 rounded(const Vec3& corner, int side) {
+    std::array<float, 3> x{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        x[k] = static_cast<float>(corner[k]);
+        if (side * (corner[k] - x[k]) > 0) x[k] = std::nextafter(x[k], static_cast<float>(side) * 1e30f);
+    }
+    return {x[0], x[1], x[2], 0};
 }
 
 }  // namespace
@@ -117,6 +128,26 @@ double TriangleTree::triangle_distance(std::uint32_t triangle, const Vec3& point
     const Vec3 off = minus(point, nearest_point(point, vertices_[a], vertices_[b], vertices_[c]));
     return dot(off, off);
 }
+
+/// Appends a box and those below it, and returns the number of the one behind them.
+std::uint32_t TriangleTree::append_to(std::vector<glsl::FormNode>& nodes, std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    const std::size_t place = nodes.size();
+    nodes.push_back({rounded(node.lower, -1), rounded(node.upper, 1), {}, {}});
+    std::uint32_t triangles[glsl::most_leaf_triangles];
+    for (std::uint32_t k = 0; k < glsl::most_leaf_triangles; ++k)
+        triangles[k] = k < node.count ? order_[node.first + k] : glsl::no_triangle;
+    nodes[place].triangles = {triangles[0], triangles[1], triangles[2], triangles[3]};
+    std::uint32_t behind = index + 1;
+    if (node.count == 0) {
+        append_to(nodes, index + 1);
+        behind = append_to(nodes, node.first);
+    }
+    nodes[place].links = {behind, 0, 0, 0};
+    return behind;
+}
+
+void TriangleTree::append_to(std::vector<glsl::FormNode>& nodes) const { append_to(nodes, 0); }
 
 double TriangleTree::distance(const Vec3& point, double exact_within, std::uint32_t& nearest) const {
     constexpr double slack = 1.02 * 1.02;

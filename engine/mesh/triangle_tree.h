@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drape/vec3.h"
+#include "shared/form_types.h"
 
 namespace drape {
 
@@ -29,6 +30,9 @@ class TriangleTree {
     /// % too far: where much is as near, that spares most of the work.
     double distance(const Vec3& point, double exact_within, std::uint32_t& nearest) const;
 
+    /// Appends the tree as passes walk it, which has as many boxes for as many triangles.
+    void append_to(std::vector<glsl::FormNode>& nodes) const;
+
     /// Appends where the line through (y, z) along x passes, in no order. Of two triangles at an edge that it meets it
     /// passes exactly one: the side of a line is decided by the same arithmetic for both, and a tie by the order of
     /// the edge's vertices.
@@ -42,6 +46,7 @@ class TriangleTree {
     struct Item;
 
     std::uint32_t build(std::span<Item> items);
+    std::uint32_t append_to(std::vector<glsl::FormNode>& nodes, std::uint32_t index) const;
     double triangle_distance(std::uint32_t triangle, const Vec3& point) const;
 
     std::span<const Vec3> vertices_;

@@ -165,10 +165,11 @@ std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders,
     return draws;
 }
 
-std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders) {
+std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders, double time) {
     std::vector<glsl::MeshCorner> corners;
     for (const Collider& collider : colliders)
-        if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) append_corners(*mesh->shape, corners);
+        if (std::holds_alternative<Mesh>(collider.shape))
+            append_corners(*std::get<Mesh>(formed(collider, time).shape).shape, corners);
     return corners;
 }
 

@@ -39,9 +39,9 @@ double radius_in_pixels(const Collider& collider, double time, const Camera& cam
 /// Returns the kinds that the scene has, those that may hide most first; each mesh is a draw of its own.
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns);
 
-/// Returns the corners of all meshes, in the order of their draws: three for each triangle. Edges between triangles
-/// that turn by less than 40 degrees look round.
-std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders);
+/// Returns the corners of all meshes at `time` (s), in the order of their draws: three for each triangle. Edges between
+/// triangles that turn by less than 40 degrees look round.
+std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders, double time);
 
 /// Planes, which have no end, are drawn as a square around the point below `center`.
 struct PlaneExtent {

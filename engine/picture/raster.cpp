@@ -134,7 +134,8 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       resolves_(samples > 1 && !device.samples_in_shaders()),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
-      mesh_corners_(mesh_corners(scene.colliders)),
+      mesh_corners_(mesh_corners(scene.colliders, 0)),
+      deforms_(std::ranges::any_of(scene.colliders, &Collider::deforms)),
       shadow_skip_reason_(shadow_skip_reason(scene, options)),
       view_(options.view.kind),
       scale_(strain_scale(options.view, scene)),
@@ -256,7 +257,8 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     if (const std::size_t count = drawn_bodies(0).size(); count > 0)
         targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
     if (!mesh_corners_.empty())
-        targets.meshes = graph.buffer<glsl::MeshCorner>(meshes_name, mesh_corners_.size(), graph::Lifetime::constant);
+        targets.meshes = graph.buffer<glsl::MeshCorner>(
+            meshes_name, mesh_corners_.size(), deforms_ ? graph::Lifetime::host_input : graph::Lifetime::constant);
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
@@ -430,7 +432,7 @@ void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets
 }
 
 void RasterPass::upload(const graph::ResourcePool& pool) const {
-    if (!mesh_corners_.empty())
+    if (!mesh_corners_.empty() && !deforms_)
         vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(mesh_corners_)));
 }
 
@@ -464,6 +466,10 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     write(body_tiles_name, std::as_bytes(std::span(marks)));
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
     if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
+    if (deforms_) {
+        const std::vector<glsl::MeshCorner> corners = mesh_corners(colliders_, time);
+        write(meshes_name, std::as_bytes(std::span(corners)));
+    }
     if (!scale_) return;
     const auto colors = heat_colors(*scale_->map);
     write(heat_colors_name, std::as_bytes(std::span(colors)));

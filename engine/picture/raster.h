@@ -128,7 +128,8 @@ class RasterPass {
 
     std::vector<Collider> colliders_;
     std::vector<Fixture> fixtures_;
-    std::vector<glsl::MeshCorner> mesh_corners_;
+    std::vector<glsl::MeshCorner> mesh_corners_;  ///< where nothing deforms; else those of the start
+    bool deforms_;                                ///< some mesh does: its corners are told for every frame
     bool has_floor_ = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;

@@ -3,6 +3,7 @@
 
 #include "shared/closed_loop_types.h"
 #include "shared/collider_types.h"
+#include "shared/form_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/residual_types.h"
@@ -26,6 +27,8 @@ namespace drape::glsl {
 #include "include/disturb.h"
 #include "include/end_velocity.h"
 #include "include/explicit.h"
+#include "include/form_sample.h"
+#include "include/forms.h"
 #include "include/line.h"
 #include "include/nested.h"
 #include "include/pin.h"

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/mesh_twin.h"
 
 namespace drape {
 
@@ -40,7 +42,8 @@ class Reduction {
         : state_(state),
           inputs_(inputs),
           colliders_(model.scene.colliders),
-          fields_(model.mesh_fields.data()),
+          made_(twin_fields(model, inputs)),
+          fields_(made_ ? made_->data() : model.mesh_fields.data()),
           push_(statistics_push(model, cloth)),
           reference_(statistics_reference(cloth)),
           masses_(mass_shares(cloth)) {}
@@ -108,6 +111,7 @@ class Reduction {
     const TwinCloth& state_;
     const FrameInputs& inputs_;
     const std::vector<drape::Collider>& colliders_;
+    std::shared_ptr<const std::vector<vec4>> made_;  ///< fields of meshes that deform
     const vec4* fields_;
     StatisticsPush push_;
     vec4 reference_;

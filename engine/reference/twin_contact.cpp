@@ -3,6 +3,7 @@
 
 #include "cloth/texels.h"
 #include "reference/kernels.h"
+#include "reference/mesh_twin.h"
 #include "reference/triangles_around.h"
 #include "reference/twin.h"
 
@@ -55,8 +56,9 @@ struct ColliderEdges {
 
 void run_collider_edges(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const std::shared_ptr<const std::vector<vec4>> moving = twin_fields(scene, inputs);
     const ColliderEdges edges{model, state, step.after_edges ? Field::lifted_once : Field::displacement,
-                              model.collider_edges(), scene.mesh_fields.data()};
+                              model.collider_edges(), moving ? moving->data() : scene.mesh_fields.data()};
     const std::vector<drape::Collider>& colliders = scene.scene.colliders;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     for (int y = 0; y < edges.push.grid.y; ++y)
@@ -71,7 +73,9 @@ void run_collider_edges(const TwinPlace& where) {
                 const vec3 local = local_point(collider, moved_position(xyz(start), moved));
                 if (start.w == 0.0f || !edges.near(kind, local, collider)) continue;
                 const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider, kind == kind_mesh);
-                moved = taken_displacement(moved, taken, local, collider, edges.push.contact.y);
+                const vec3 surface = kind == kind_mesh ? mesh_displacement(collider, local, edges.fields)
+                                                       : surface_displacement(collider, local);
+                moved = taken_displacement(moved, taken, surface, collider, edges.push.contact.y);
                 touched = touched || ordered_dot(taken, taken) > 0.0f;
             }
             state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, touched ? 1.0f : 0.0f);
@@ -117,6 +121,8 @@ void run_collide(const TwinPlace& where) {
     const CollisionPush& push = model.collision;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     const float recovery = step.leading ? push.contact.w : 0.0f;
+    const std::shared_ptr<const std::vector<vec4>> moving = twin_fields(scene, inputs);
+    const vec4* const fields = moving ? moving->data() : scene.mesh_fields.data();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
@@ -131,7 +137,7 @@ void run_collide(const TwinPlace& where) {
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact =
                     collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, recovery, true, scene.mesh_fields.data());
+                                     push.contact.x, push.contact.y, recovery, true, fields);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;

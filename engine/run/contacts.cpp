@@ -33,7 +33,7 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
     std::vector<float> nearest(touched.size(), reach);
     for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
         const int kind = scene.colliders[number].kind();
-        const Collider kept = contact_shape(shape, scene.colliders[number]);
+        const Collider kept = formed(contact_shape(shape, scene.colliders[number]), time);
         const glsl::ColliderRecord record = collider_record(kept, time, time);
         const glsl::vec3 radii{record.shape.x, record.shape.y, record.shape.z};
         for (std::size_t particle = 0; particle < touched.size(); ++particle) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mesh/mesh_shape.h"
+#include "mesh/mesh_sequence.h"
 #include "output/kept_frames.h"
 #include "run/frame_sink.h"
 #include "spirv_modules.h"
@@ -37,7 +37,10 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     if (!result.files.empty()) {
         for (const Cloth& cloth : loaded.description.cloths) hashed.push_back(given_hash(cloth));
         for (const Collider& collider : loaded.description.colliders)
-            if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) hashed.push_back(given_hash(*mesh->shape));
+            if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
+                hashed.push_back(given_hash(*mesh->shape));
+                if (mesh->sequence) hashed.push_back(xxh3_128_hex(std::as_bytes(mesh->sequence->places())));
+            }
     }
     loaded.hash = run_key(hashed);
     if (request.image_size) loaded.description.image.size = *request.image_size;

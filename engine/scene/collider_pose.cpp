@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/vectors.h"
-#include "mesh/mesh_shape.h"
+#include "mesh/mesh_sequence.h"
 #include "scene/motion.h"
 
 namespace drape {
@@ -71,6 +71,35 @@ ColliderPose collider_pose(const Collider& collider, double time) {
     if (shape.axes) pose.rotation = product(pose.rotation, *shape.axes);
     for (std::size_t axis = 0; axis < 3; ++axis) pose.center[axis] += motion.translation[axis];
     return pose;
+}
+
+double pose_number(const Mesh& mesh, double time) {
+    const auto count = static_cast<double>(mesh.sequence->count());
+    const double number = (time - mesh.frames_start) * mesh.frames_per_second;
+    if (!mesh.loop) return std::clamp(number, 0.0, count - 1);
+    const double within = number - count * std::floor(number / count);
+    return within < count ? within : 0;  // rounding
+}
+
+Collider formed(const Collider& collider, double time) {
+    Collider now = collider;
+    if (Mesh* const mesh = std::get_if<Mesh>(&now.shape); mesh && mesh->sequence)
+        mesh->shape = mesh->sequence->at(pose_number(*mesh, time));
+    return now;
+}
+
+double deformed(const Collider& collider, double from, double to) {
+    if (!collider.deforms()) return 0;
+    const Mesh& mesh = std::get<Mesh>(collider.shape);
+    return mesh.sequence->farthest(pose_number(mesh, from), pose_number(mesh, to));
+}
+
+bool rests(const Collider& collider, double from, double to) {
+    const MotionPath& path = collider.path;
+    if (path.moves() && to > path.keys.front().time && from < path.keys.back().time) return false;
+    if (!collider.deforms()) return true;
+    const Mesh& mesh = std::get<Mesh>(collider.shape);
+    return mesh.sequence->count() == 1 || (!mesh.loop && pose_number(mesh, from) == pose_number(mesh, to));
 }
 
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v) {

@@ -29,6 +29,15 @@ ShapeGeometry shape_geometry(const ColliderShape& shape);
 /// translation is added. A plane's world normal is `rotate(pose.rotation, normal)`.
 ColliderPose collider_pose(const Collider& collider, double time);
 
+/// Returns the number of a mesh's pose (mesh/mesh_sequence.h) at a time, s.
+double pose_number(const Mesh& mesh, double time);
+/// Returns the collider with the form that it has at a time, s: itself, unless it deforms.
+Collider formed(const Collider& collider, double time);
+/// Returns what no point of its surface moves farther than by deforming between two times, by a straight line, m.
+double deformed(const Collider& collider, double from, double to);
+/// Returns whether the collider is where and as it is at each instant between two times, s.
+bool rests(const Collider& collider, double from, double to);
+
 Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v);
 
 }  // namespace drape

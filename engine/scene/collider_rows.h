@@ -88,7 +88,18 @@ inline const Object<Collider> mesh{
          "Metres: thickness of a surface that is not closed, half of it on either side."},
         {"spacing", &Mesh::spacing, optional(number(positive)),
          "Metres between the points of the lattice. Absent: half of the least distance of particles, or of the shell's "
-         "thickness, and more where that needs over 2 million points."},
+         "thickness, and more where that needs over 2 million points, or over 262144 of a mesh that deforms."},
+        {"frames", &Mesh::frames, without_default(text()),
+         "Where the vertices of file, an OBJ file, are in a series of poses: PC2, or NPY or NPZ (poses, vertices, 3), "
+         "or "
+         "OBJ files, with # in this name for the digits of their numbers. The mesh deforms, and its centre is the "
+         "middle "
+         "of the box about all poses."},
+        {"frames_per_second", &Mesh::frames_per_second, number(positive),
+         "Poses a second. Between two, vertices move along straight lines."},
+        {"frames_start", &Mesh::frames_start, number(any_number),
+         "Seconds: when the first pose is. It holds before, and the last one behind."},
+        {"loop", &Mesh::loop, boolean(), "The first pose follows the last one, before the start too."},
     }),
     check_mesh};
 

@@ -13,13 +13,22 @@ bool check_capsule(const Members& members, Collider&) {
 }
 
 bool check_mesh(const Members& members, Collider& collider) {
-    if (!members.fit({"file", "scale", "shell"})) return false;
     Mesh& mesh = std::get<Mesh>(collider.shape);
+    const SceneNode frames = members["frames"];
+    const Mesh still;
+    const auto says = [&](const char* key, bool differs) {
+        return !frames && differs && !members[key].fail("expected frames too, got none");
+    };
+    if (says("frames_per_second", mesh.frames_per_second != still.frames_per_second) ||
+        says("frames_start", mesh.frames_start != still.frames_start) || says("loop", mesh.loop != still.loop))
+        return false;
+    if (!members.fit({"file", "scale", "shell", "frames", "frames_per_second", "frames_start", "loop"})) return false;
     mesh.file = members["file"].file(mesh.file).string();
+    if (frames) mesh.frames = frames.file(mesh.frames).string();
     try {
         read_file(mesh);
     } catch (const Error& error) {
-        return members["file"].fail(error.what());
+        return (frames ? frames : members["file"]).fail(error.what());
     }
     return true;
 }
@@ -29,15 +38,16 @@ bool check_fields(const SceneNode& colliders, const SceneDescription& scene) {
     for (const Collider& collider : scene.colliders) {
         if (!std::holds_alternative<Mesh>(collider.shape)) continue;
         const FieldPlan plan = field_plan(scene, collider);
-        points += plan.points;
+        points += plan.texels;
         const SceneNode mesh = colliders.member("meshes").element(place++);
         if (points <= most_field_points) continue;
         const SceneNode spacing = mesh.member("spacing");
         return (spacing ? spacing : mesh)
             .fail(
                 fmt::format("expected distances to all meshes at no more than {} points, got {} up to this one, which "
-                            "has a spacing of {:.3g} m",
-                            most_field_points, points, plan.spacing));
+                            "has a spacing of {:.3g} m{}",
+                            most_field_points, points, plan.spacing,
+                            collider.deforms() ? ", where one that deforms counts three times" : ""));
     }
     return true;
 }

@@ -5,6 +5,7 @@
 
 #include "mesh/distance_field.h"
 #include "scene/contact_shape.h"
+#include "shared/collider_types.h"
 
 namespace drape {
 
@@ -29,21 +30,24 @@ double margin_of(const SceneDescription& scene, const Collider& collider) {
 }
 
 /// Returns how many points a mesh may have that asks for no spacing.
-std::size_t most_points(const SceneDescription& scene) {
+std::size_t most_points(const SceneDescription& scene, const Collider& collider) {
     const auto is_mesh = [](const Collider& each) { return std::holds_alternative<Mesh>(each.shape); };
     const auto count = static_cast<std::size_t>(std::ranges::count_if(scene.colliders, is_mesh));
-    return std::min(usual_field_points, most_field_points / std::max<std::size_t>(count, 1));
+    const std::size_t share = most_field_points / std::max<std::size_t>(count, 1);
+    return collider.deforms() ? std::min(usual_moving_points, share / glsl::moving_point_texels)
+                              : std::min(usual_field_points, share);
 }
 
 }  // namespace
 
 FieldPlan field_plan(const SceneDescription& scene, const Collider& collider) {
     const Mesh& mesh = std::get<Mesh>(collider.shape);
-    FieldPlan plan{mesh.spacing.value_or(half_cell(scene)), 0, margin_of(scene, collider), 0};
+    FieldPlan plan{mesh.spacing.value_or(half_cell(scene)), 0, margin_of(scene, collider), 0, 0};
     if (mesh.shell && !mesh.spacing) plan.wanted = std::min(plan.wanted, 0.5 * *mesh.shell);
     plan.spacing =
-        mesh.spacing ? plan.wanted : field_spacing(*mesh.shape, plan.wanted, plan.margin, most_points(scene));
+        mesh.spacing ? plan.wanted : field_spacing(*mesh.shape, plan.wanted, plan.margin, most_points(scene, collider));
     plan.points = field_points(*mesh.shape, plan.spacing, plan.margin);
+    plan.texels = collider.deforms() ? plan.points * glsl::moving_point_texels : plan.points;
     return plan;
 }
 

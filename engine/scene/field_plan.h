@@ -12,6 +12,7 @@ struct FieldPlan {
     double spacing;      ///< m: as the room for fields allows
     double margin;       ///< m: contact looks so far beyond the surface
     std::size_t points;  ///< of the field
+    std::size_t texels;  ///< that a device has for it (shared/collider_types.h)
 };
 
 /// Returns that of a mesh that was read, among a scene's colliders. A spacing that the mesh asks for is kept, however

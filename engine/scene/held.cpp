@@ -72,7 +72,11 @@ double least_between(const Collider& collider, Vec3 from, Vec3 to) {
 class Beside {
   public:
     Beside(const Pin& pin, const HeldByPin& held, const Collider& collider)
-        : pin_(pin), held_(held), collider_(collider), reach_(shape_geometry(collider.shape).reach) {
+        : pin_(pin),
+          held_(held),
+          given_(collider),
+          collider_(formed(collider, 0)),
+          reach_(shape_geometry(collider.shape).reach) {
         const ColliderPose pose = collider_pose(collider, 0);
         for (const Vec3& rest : held.rest) start_ = std::max(start_, -distance(exact::to_local(pose, rest)));
     }
@@ -82,6 +86,7 @@ class Beside {
     void look(double time, std::uint32_t frame, double least, HeldDeep& found) {
         const RigidTransform motion = motion_at(pin_.path, time);
         const ColliderPose pose = collider_pose(collider_, time);
+        if (given_.deforms()) collider_ = formed(given_, time);
         const bool first = before_.empty();
         before_.resize(held_.rest.size());
         for (std::size_t k = 0; k < held_.rest.size(); ++k) {
@@ -111,7 +116,8 @@ class Beside {
     }
     const Pin& pin_;
     const HeldByPin& held_;
-    const Collider& collider_;
+    const Collider& given_;
+    Collider collider_;
     double reach_, start_ = 0;
     std::vector<At> before_;
 };
@@ -127,13 +133,15 @@ HeldDeep deepest_of(const SceneDescription& scene, const Cloth& cloth, const Pin
     HeldDeep worst;
     for (std::size_t index = 0; index < scene.colliders.size(); ++index) {
         const Collider& collider = scene.colliders[index];
-        if (!collider.path.moves() && pin.path.keys.empty()) continue;
+        if (!collider.moves() && pin.path.keys.empty()) continue;
         Beside beside(pin, held, collider);
         const double least = std::max(least_held_depth * shorter_edge(cloth), 1.001 * beside.start());
         HeldDeep one;
         one.collider = index;
-        for (double k = 0; k <= instants; ++k) {
-            const double time = instants > 0 ? end * k / instants : 0;
+        // Forms are costly to look at: those of the frames have to do.
+        const double count = collider.deforms() ? std::min(instants, std::ceil(end * fps)) : instants;
+        for (double k = 0; k <= count; ++k) {
+            const double time = count > 0 ? end * k / count : 0;
             beside.look(time, static_cast<std::uint32_t>(std::ceil(time * fps - 1e-6)), least, one);
         }
         if (one.depth > worst.depth) worst = one;

@@ -63,7 +63,8 @@ WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Box& b
     return best;
 }
 
-StartOverlap overlap(const std::vector<Vec3>& places, const Collider& collider, double least) {
+StartOverlap overlap(const std::vector<Vec3>& places, const Collider& given, double least) {
+    const Collider collider = formed(given, 0);
     const ColliderPose pose = collider_pose(collider, 0);
     const double reach = shape_geometry(collider.shape).reach;
     StartOverlap found;

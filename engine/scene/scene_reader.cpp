@@ -11,6 +11,7 @@
 
 #include "base/printable_text.h"
 #include "mesh/mesh_file.h"
+#include "mesh/sequence_file.h"
 #include "scene/scene_node.h"
 
 namespace drape {
@@ -106,7 +107,10 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
     return result;
 }
 
-void read_file(Mesh& mesh) { mesh.shape = read_mesh(mesh.file, mesh.scale, mesh.shell); }
+void read_file(Mesh& mesh) {
+    mesh.sequence = mesh.frames.empty() ? nullptr : read_sequence(mesh.file, mesh.frames, mesh.scale, mesh.shell);
+    mesh.shape = mesh.sequence ? mesh.sequence->form() : read_mesh(mesh.file, mesh.scale, mesh.shell);
+}
 std::string scene_folder(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) ? std::filesystem::path(path).parent_path().string() : "";

@@ -52,7 +52,7 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
                                                           {"bottom_right", {{1, 1}, {1, 1}}}};
 
 bool check_capsule(const Members& members, Collider& collider);
-/// Reads the mesh's file.
+/// Reads the mesh's files.
 bool check_mesh(const Members& members, Collider& collider);
 bool check_wind(const Members& members, Wind& wind);
 bool check_placement(const Members& members, Placement& placement);

@@ -101,8 +101,9 @@ inline double surface_distance(const Collider& collider, const ColliderPose& pos
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
 }
 
+/// A mesh that deforms has the form of that time.
 inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
-    return surface_distance(collider, collider_pose(collider, time), x);
+    return surface_distance(formed(collider, time), collider_pose(collider, time), x);
 }
 
 inline double surface_distance(const std::vector<Collider>& colliders, double time, const Vec3& x) {

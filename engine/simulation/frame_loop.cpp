@@ -187,7 +187,10 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
     const FrameContents& has = contents(kind);
     const FrameNeeds wanted = needs(kind);
     solver_.declare(frame.graph, wanted, run);
-    if (has.simulates) solver_.add_simulation(frame.graph);
+    if (has.simulates)
+        solver_.add_simulation(frame.graph);
+    else if (wanted.statistics)
+        solver_.add_forms(frame.graph);
     const bool cuts = has.searches_cuts && !model_.scene.cutters.empty();
     const bool tears = has.searches_cuts && model_.scene.tears() && kind != FrameKind::initial_cut;
     if (cuts) solver_.add_cuts(frame.graph);

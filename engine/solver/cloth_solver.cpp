@@ -13,6 +13,7 @@
 #include "solver/attempt_pass.h"
 #include "solver/cloth_constants.h"
 #include "solver/cut_pass.h"
+#include "solver/form_pass.h"
 #include "solver/kernel_choice.h"
 #include "solver/position_upload.h"
 #include "solver/readback_pass.h"
@@ -138,11 +139,13 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
                                           .element = &glsl::layout_of<glsl::ColliderRecord>(),
                                           .texels = true});
     if (!model_.mesh_fields.empty())
-        inputs_.mesh_fields = graph.buffer({.name = mesh_fields_name,
-                                            .byte_count = model_.mesh_fields.texels().size() * sizeof(glsl::vec4),
-                                            .lifetime = Lifetime::constant,
-                                            .element = &glsl::layout_of<glsl::vec4>(),
-                                            .texels = true});
+        inputs_.mesh_fields =
+            graph.buffer({.name = mesh_fields_name,
+                          .byte_count = model_.mesh_fields.texels().size() * sizeof(glsl::vec4),
+                          .lifetime = model_.mesh_fields.deform() ? Lifetime::persistent : Lifetime::constant,
+                          .element = &glsl::layout_of<glsl::vec4>(),
+                          .texels = true});
+    declare_forms(graph, model_, inputs_);
     for (std::size_t index = 0; index < model_.cloths.size(); ++index) declare_cloth(graph, index, needs);
     for (Together& together : together_) declare_together(graph, together, needs);
     if (run.self_contact) declare_contact(graph);
@@ -244,6 +247,7 @@ void ClothSolver::add_positions(graph::Graph& graph) {
 void ClothSolver::add_simulation(graph::Graph& graph) {
     for (const KernelVerdict& each : verdicts_)
         graph.choose(fmt::format("{} is {}used", name_of(each.kernel), each.is_used ? "" : "not "), each.reason);
+    add_forms(graph);
     for (const Step& step : steps()) add_dispatches(graph, step);
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) take(cloth);
     const char* const name = "self record readback";
@@ -251,6 +255,8 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
         add_buffer_readback(graph, {name, "simulate", name}, contact_[ContactField::record], 0,
                             sizeof(glsl::SelfRecord), contact_readback_name);
 }
+
+void ClothSolver::add_forms(graph::Graph& graph) { drape::add_forms(graph, pipelines_, *run_, inputs_); }
 
 void ClothSolver::add_step(graph::Graph& graph, const Step& step) {
     add_dispatches(graph, step);
@@ -433,6 +439,7 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
                                std::uint32_t substeps) const {
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
+    if (inputs.forms) write_forms(pool, slot, *inputs.forms);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
         if (is_alone(cloth) && !inputs.pins[cloth].empty())
             write_buffer(pool, slot, resource_name(model_.cloths[cloth], row_of(Field::pin_motions)),

@@ -49,6 +49,8 @@ class ClothSolver {
                  StateSet set = StateSet::run);
     /// Adds the passes of one frame.
     void add_simulation(graph::Graph& graph);
+    /// Adds the passes that make the fields of meshes that deform, for a frame that is not simulated.
+    void add_forms(graph::Graph& graph);
     /// Adds the passes of one of `steps`, where a frame that needs an inspection runs them one at a time.
     void add_step(graph::Graph& graph, const Step& step);
     /// Returns the steps of one frame of the run that was declared.

@@ -42,6 +42,10 @@ graph::Handle& PassResources::find(std::string_view variable, bool written) {
     if (name == "attempt") return inputs.attempt;
     if (name == "colliders" || name == "collider_texels") return inputs.colliders;
     if (name == "mesh_fields") return inputs.mesh_fields;
+    if (name == "form_nodes") return inputs.form_nodes;
+    if (name == "form_corners") return inputs.form_corners;
+    if (name == "form_guesses") return inputs.form_guesses;
+    if (name == "form_sides") return inputs.form_sides;
     throw std::logic_error("a shader names '" + name + "', which its pass has not");
 }
 

@@ -76,7 +76,9 @@ struct SceneInputs {
     graph::Handle wind;         ///< a vec4 per substep, m/s
     graph::Handle colliders;    ///< ColliderRecords, sorted by kind
     graph::Handle mesh_fields;  ///< distances to meshes, as texels (shared/collider_types.h)
-    graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth
+    /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.
+    graph::Handle form_nodes, form_corners, form_guesses, form_sides;
+    graph::Handle attempt;  ///< closed loops: a SubstepChange per cloth
 };
 
 /// A scene's motion may be simulated more than once on a device, each time in images of its own.

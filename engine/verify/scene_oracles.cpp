@@ -246,12 +246,13 @@ double deepest(const SceneRun& run, const Collider& collider) {
         const double thickness = run.scene.cloths[cloth].thickness, reach = shape_geometry(kept.shape).reach;
         for (std::size_t frame = 1; frame < run.frames.size(); ++frame) {
             const double time = run.time(frame);
-            const Vec3 center = collider_pose(kept, time).center;
+            const ColliderPose pose = collider_pose(kept, time);
+            const Collider now = formed(kept, time);
             for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
                 const Vec3 x = run.at(frame, cloth, particle);
-                if (length(minus(x, center)) > reach + thickness) continue;  // spares the costly distance
-                depth = std::max(depth, (thickness - surface_distance(kept, time, x)) / size);
+                if (length(minus(x, pose.center)) > reach + thickness) continue;  // spares the costly distance
+                depth = std::max(depth, (thickness - surface_distance(now, pose, x)) / size);
             }
         }
     }

@@ -116,16 +116,22 @@ SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     return BoxCut(normal, depth, shares);
 }
 
+/// Returns the point of a triangle at which a cut touches it.
+SHARED vec3 touching_point(BoxCut cut, CutCorner a, CutCorner b, CutCorner c) {
+    precise vec3 touching = a.local * cut.shares.x + b.local * cut.shares.y + c.local * cut.shares.z;
+    return touching;
+}
+
 /// Returns `taken` (m, local), by which the triangle's first corner is moved already, with what a cut asks beyond it.
+/// `surface`: displacement of the collider where it touches, m, world frame.
 SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
-                     float recovery) {
+                     vec3 surface, float recovery) {
     precise float mobility = a.weight * cut.shares.x * cut.shares.x + b.weight * cut.shares.y * cut.shares.y +
                              c.weight * cut.shares.z * cut.shares.z;
     if (!(cut.depth > 0.0f) || !(mobility > 0.0f)) return taken;
     // As in collider_contact, the depth that was there when the substep began is given back slowly.
-    precise vec3 touching = a.local * cut.shares.x + b.local * cut.shares.y + c.local * cut.shares.z;
     precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
-    precise vec3 relative = motion - surface_displacement(collider, touching);
+    precise vec3 relative = motion - surface;
     precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
     // Cloth that leaves by one face must not be led to another one.
     vec3 way_out = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
@@ -137,12 +143,19 @@ SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner
     return sum;
 }
 
+SHARED vec3 with_box_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                         float recovery) {
+    vec3 surface = surface_displacement(collider, touching_point(cut, a, b, c));
+    return with_cut(taken, cut, a, b, c, collider, surface, recovery);
+}
+
 /// Returns `taken` with all that a triangle asks of its first corner.
 SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider, float recovery) {
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-    taken = with_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
-    taken = with_cut(taken, edge_in_box(a.local, c.local, half_extents), a, c, b, collider, recovery);
-    return with_cut(taken, corner_in_triangle(a.local, b.local, c.local, half_extents), a, b, c, collider, recovery);
+    taken = with_box_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
+    taken = with_box_cut(taken, edge_in_box(a.local, c.local, half_extents), a, c, b, collider, recovery);
+    return with_box_cut(taken, corner_in_triangle(a.local, b.local, c.local, half_extents), a, b, c, collider,
+                        recovery);
 }
 
 /// Returns whether an edge of the cloth shorter than `reach` that ends at a particle can meet an edge of the box.
@@ -156,7 +169,7 @@ SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
 /// The plane that touches a mesh where that is nearest to a corner of a triangle: normal (unit, outward, local) and the
 /// corner's distance from it, m, negative inside.
 SHARED vec4 touching_plane(vec3 local, ColliderRecord mesh WITH_FIELDS) {
-    SurfacePoint surface = mesh_surface(mesh, local FIELDS);
+    SurfacePoint surface = mesh_surface(mesh, local, 1.0f FIELDS);
     return vec4(surface.normal.x, surface.normal.y, surface.normal.z, surface.distance);
 }
 
@@ -177,7 +190,7 @@ SHARED BoxCut cut_of_planes(vec3 touching, float depth, vec3 mean, vec3 shares, 
     if (!(depth > known) || !(cosine > least_cosine)) return no_cut();
     // Planes overrate how deep a point is in what is convex, samples underrate it by less than half their spacing.
     precise float blunt = 0.5f * FIELD_TEXEL(int(mesh.way_out.x)).w;
-    precise float seen = -mesh_surface(mesh, touching FIELDS).distance;
+    precise float seen = -mesh_surface(mesh, touching, 1.0f FIELDS).distance;
     precise float most = seen + blunt;
     float inside = smaller_of(depth, most);
     if (!(inside > known)) return no_cut();
@@ -261,17 +274,33 @@ SHARED bool leads_below(vec3 a, vec3 b, vec4 at_a) {
     return -ordered_dot(normal_of(at_a), along) > at_a.w;
 }
 
+/// Returns how far the surface of a mesh nearest to `local` moved during the substep, world frame, m.
+SHARED vec3 mesh_displacement(ColliderRecord collider, vec3 local WITH_FIELDS) {
+    vec3 moved = surface_displacement(collider, local);
+    if (!is_deforming(kind_mesh, collider FIELDS)) return moved;
+    precise vec3 all = moved + deformation(collider, local FIELDS);
+    return all;
+}
+
+SHARED vec3 with_mesh_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                          float recovery WITH_FIELDS) {
+    vec3 surface = mesh_displacement(collider, touching_point(cut, a, b, c) FIELDS);
+    return with_cut(taken, cut, a, b, c, without_way_out(collider), surface, recovery);
+}
+
 /// Returns `taken` with all that a triangle which meets a mesh asks of its first corner, whose touching plane is given.
 SHARED vec3 with_mesh_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 at_a, ColliderRecord collider,
                                float recovery WITH_FIELDS) {
     if (!leads_below(a.local, b.local, at_a) && !leads_below(a.local, c.local, at_a)) return taken;
-    ColliderRecord mesh = true_mesh(collider), leaving = without_way_out(collider);
+    ColliderRecord mesh = true_mesh(collider);
     vec4 at_b = touching_plane(b.local, mesh FIELDS);
     vec4 at_c = touching_plane(c.local, mesh FIELDS);
-    taken = with_cut(taken, edge_in_mesh(a.local, b.local, at_a, at_b, mesh FIELDS), a, b, c, leaving, recovery);
-    taken = with_cut(taken, edge_in_mesh(a.local, c.local, at_a, at_c, mesh FIELDS), a, c, b, leaving, recovery);
-    return with_cut(taken, triangle_in_mesh(a.local, b.local, c.local, at_a, at_b, at_c, mesh FIELDS), a, b, c, leaving,
-                    recovery);
+    BoxCut to_b = edge_in_mesh(a.local, b.local, at_a, at_b, mesh FIELDS);
+    BoxCut to_c = edge_in_mesh(a.local, c.local, at_a, at_c, mesh FIELDS);
+    BoxCut inside = triangle_in_mesh(a.local, b.local, c.local, at_a, at_b, at_c, mesh FIELDS);
+    taken = with_mesh_cut(taken, to_b, a, b, c, collider, recovery FIELDS);
+    taken = with_mesh_cut(taken, to_c, a, c, b, collider, recovery FIELDS);
+    return with_mesh_cut(taken, inside, a, b, c, collider, recovery FIELDS);
 }
 
 /// Returns whether an edge of the cloth shorter than `reach` that ends at a particle can meet a mesh.
@@ -282,15 +311,15 @@ SHARED bool near_mesh(vec3 local, vec4 plane, ColliderRecord collider, float rea
 }
 #endif
 
-/// Displacement of a particle that a box has moved by `taken` (m, local), with friction.
-SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 local, ColliderRecord collider, float friction) {
+/// Displacement of a particle that a collider has moved by `taken` (m, local), with friction. `surface`: the collider's
+/// own displacement there, m, world frame.
+SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 surface, ColliderRecord collider, float friction) {
     float squared = ordered_dot(taken, taken);
     if (!(squared > 0.0f)) return displacement;
     float depth = sqrt(squared);
     precise vec3 normal = taken / depth;
     precise float pair_friction = friction * collider.shape.w;
-    return contact_displacement(displacement, surface_displacement(collider, local), world_direction(collider, normal),
-                                depth, pair_friction);
+    return contact_displacement(displacement, surface, world_direction(collider, normal), depth, pair_friction);
 }
 
 #endif

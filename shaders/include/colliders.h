@@ -162,48 +162,7 @@ SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
 }
 
 #ifdef MESHES
-/// Returns a share of the way from a to b.
-SHARED float between(float a, float b, float share) {
-    precise float step = (b - a) * share;
-    precise float sum = a + step;
-    return sum;
-}
-
-/// The distance to a mesh between the samples of its field, by linear interpolation along each axis, and its slope.
-/// Beyond the field the way to it is added, so distances that contact does not ask for are too large there.
-SHARED SurfacePoint mesh_surface(ColliderRecord collider, vec3 local WITH_FIELDS) {
-    int head = int(collider.way_out.x);
-    vec4 lower = FIELD_TEXEL(head), size = FIELD_TEXEL(head + 1);
-    float spacing = lower.w;
-    precise vec3 place = (local - vec3(lower.x, lower.y, lower.z)) / spacing;
-    vec3 last = vec3(size.x - 1.0f, size.y - 1.0f, size.z - 1.0f);
-    vec3 within =
-        vec3(place.x > 0.0f ? place.x : 0.0f, place.y > 0.0f ? place.y : 0.0f, place.z > 0.0f ? place.z : 0.0f);
-    within = vec3(within.x < last.x ? within.x : last.x, within.y < last.y ? within.y : last.y,
-                  within.z < last.z ? within.z : last.z);
-    vec3 cell = vec3(floor(within.x), floor(within.y), floor(within.z));
-    cell = vec3(cell.x < last.x ? cell.x : last.x - 1.0f, cell.y < last.y ? cell.y : last.y - 1.0f,
-                cell.z < last.z ? cell.z : last.z - 1.0f);
-    precise vec3 share = within - cell;
-    precise vec3 off = (place - within) * spacing;
-    int row = int(size.x), layer = row * int(size.y);
-    int first = head + field_head + int(cell.x) + int(cell.y) * row + int(cell.z) * layer;
-    vec4 left = FIELD_TEXEL(first), right = FIELD_TEXEL(first + 1);
-    precise vec4 along_x = vec4(right.x - left.x, right.y - left.y, right.z - left.z, right.w - left.w);
-    vec4 at_x = vec4(between(left.x, right.x, share.x), between(left.y, right.y, share.x),
-                     between(left.z, right.z, share.x), between(left.w, right.w, share.x));
-    float near = between(at_x.x, at_x.y, share.y), far = between(at_x.z, at_x.w, share.y);
-    precise float along_y_near = at_x.y - at_x.x;
-    precise float along_y_far = at_x.w - at_x.z;
-    precise float along_z = far - near;
-    vec3 slope = vec3(between(between(along_x.x, along_x.y, share.y), between(along_x.z, along_x.w, share.y), share.z),
-                      between(along_y_near, along_y_far, share.z), along_z);
-    precise float steepness = sqrt(ordered_dot(slope, slope));
-    precise float distance = between(near, far, share.z) + sqrt(ordered_dot(off, off)) - collider.way_out.y;
-    if (!(steepness > 0.0f)) return SurfacePoint(vec3(0.0f, 1.0f, 0.0f), distance);
-    precise vec3 normal = slope / steepness;
-    return SurfacePoint(normal, distance);
-}
+#include "include/mesh_field.h"
 #endif
 
 struct Contact {
@@ -263,7 +222,7 @@ SHARED SurfacePoint plane_surface(ColliderRecord collider, vec3 world) {
 SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local WITH_FIELDS) {
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
 #ifdef MESHES
-    if (kind == kind_mesh) return mesh_surface(collider, local FIELDS);
+    if (kind == kind_mesh) return mesh_surface(collider, local, 1.0f FIELDS);
 #endif
     if (kind != kind_plane) return shape_surface(kind, local, size);
     return plane_surface(collider, world);
@@ -383,12 +342,36 @@ SHARED vec4 row_before(vec4 row, vec4 change) {
     return before;
 }
 
-/// Returns where a point was in the frame of the collider as the substep began.
-SHARED vec3 local_at_start(ColliderRecord collider, vec3 start) {
+/// Returns the collider as the substep began.
+SHARED ColliderRecord at_start(ColliderRecord collider) {
     collider.pose_x = row_before(collider.pose_x, collider.change_x);
     collider.pose_y = row_before(collider.pose_y, collider.change_y);
     collider.pose_z = row_before(collider.pose_z, collider.change_z);
-    return local_point(collider, start);
+    return collider;
+}
+
+/// Returns where a point was in the frame of the collider as the substep began.
+SHARED vec3 local_at_start(ColliderRecord collider, vec3 start) { return local_point(at_start(collider), start); }
+
+/// Returns whether a collider is a mesh that deforms, which its field says.
+SHARED bool is_deforming(int kind, ColliderRecord collider WITH_FIELDS) {
+#ifdef MESHES
+    if (kind == kind_mesh) return FIELD_TEXEL(int(collider.way_out.x) + 1).w > 0.0f;
+#endif
+    return false;
+}
+
+/// Returns how far the surface nearest to `local` of one that deforms moved during the substep, beside what its pose
+/// moved, world frame, m.
+SHARED vec3 deformation(ColliderRecord collider, vec3 local WITH_FIELDS) {
+#ifdef MESHES
+    int head = int(collider.way_out.x);
+    vec3 in_frame = deformed_by(head + field_head, field_place(head, local FIELDS) FIELDS);
+    precise vec3 moved = in_frame * FIELD_TEXEL(head + 1).w;
+    return world_direction(at_start(collider), moved);
+#else
+    return vec3(0.0f, 0.0f, 0.0f);
+#endif
 }
 
 /// How a particle comes into a shape.
@@ -397,24 +380,34 @@ struct WayIn {
     vec3 at;          // where it starts or, if it goes far, comes in; local frame
     SurfacePoint by;  // nearest to there
     bool comes_in;
+    float share;  // of the substep that is over then
 };
+
+/// Returns the surface that a particle meets on its way: of a mesh that deforms, as a share of the substep leaves it.
+SHARED SurfacePoint surface_on_way(int kind, ColliderRecord collider, vec3 world, vec3 local, float share WITH_FIELDS) {
+#ifdef MESHES
+    if (kind == kind_mesh) return mesh_surface(collider, local, share FIELDS);
+#endif
+    return collider_surface(kind, collider, world, local FIELDS);
+}
 
 /// Follows a particle from `from` along `way` if it goes far. Of a shape without dents the distance is convex along a
 /// line, so Newton's rounds come to the surface from outside, or see that the line misses it. Along a mesh's dents each
 /// round goes as far as nothing can be nearer (sphere tracing; Hart, "Sphere Tracing"), to a hundredth of the
-/// thickness.
-SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness,
-                    bool far WITH_FIELDS) {
+/// thickness; towards one that deforms (`deforms`) it goes as if all of it came near with its fastest part.
+SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness, bool far,
+                    bool deforms WITH_FIELDS) {
     precise float enough = kind == kind_mesh ? thickness * -0.01f : 0.0f;
-    WayIn found = WayIn(0.0f, from, SurfacePoint(from, 0.0f), far);
+    WayIn found = WayIn(0.0f, from, SurfacePoint(from, 0.0f), far, 0.0f);
+    precise float closing = length_of(way) + (deforms ? collider.way_out.w : 0.0f);
     float share = 0.0f;
     int round = 0;
     bool goes_on = far;
     do {
-        found.by = collider_surface(kind, collider, world, found.at FIELDS);
+        found.by = surface_on_way(kind, collider, world, found.at, deforms ? share : 1.0f FIELDS);
         precise float inside = thickness - found.by.distance;
         found.before = round == 0 ? inside : found.before;
-        float slope = kind == kind_mesh ? -length_of(way) : ordered_dot(found.by.normal, way);
+        float slope = kind == kind_mesh ? -closing : ordered_dot(found.by.normal, way);
         precise float next = share + inside / slope;
         bool outside = far && inside < enough;
         if (outside && !(slope < 0.0f && next <= 1.0f)) found.comes_in = false;
@@ -425,6 +418,7 @@ SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, ve
         if (goes_on) found.at = there;
         ++round;
     } while (goes_on);
+    found.share = share;
     return found;
 }
 
@@ -445,13 +439,15 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     SurfacePoint found = collider_surface(kind, collider, now, local FIELDS);
     precise float inside = thickness - found.distance;
     if (!(inside > 0.0f) && !far) return none;
-    // The overlap at the substep's start is measured where the collider has carried the particle's place since.
+    // The overlap at the substep's start is measured where the collider has carried the particle's place since; for one
+    // that deforms, as it was then.
+    bool deforms = is_deforming(kind, collider FIELDS);
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
     vec3 local_carried = local_point(collider, carried);
-    if (far) local_carried = local_at_start(collider, start);
+    if (far || deforms) local_carried = local_at_start(collider, start);
     precise vec3 way = local - local_carried;
-    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far FIELDS);
+    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far, deforms FIELDS);
     if (!(inside > 0.0f) && !in_by.comes_in) return none;
     if (in_by.comes_in) {
         precise float beyond = in_by.by.distance + ordered_dot(in_by.by.normal, local - in_by.at);
@@ -465,12 +461,20 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
         precise float by_one_face = thickness - way_out_surface(collider, local_carried).distance;
         before = by_one_face;
     }
+    vec3 out_of = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
+    if (deforms) {
+        vec3 deformed = deformation(collider, in_by.comes_in ? in_by.at : local FIELDS);
+        precise vec3 with_it = surface + deformed;
+        surface = with_it;
+        // The plane on which the particle came in has gone on with the surface.
+        precise float gone_on = found.distance - (1.0f - in_by.share) * ordered_dot(out_of, deformed);
+        if (in_by.comes_in) found = SurfacePoint(found.normal, gone_on);
+    }
     precise float depth = thickness - found.distance - kept_depth(before, recovery);
     if (!(depth > 0.0f)) return none;
-    vec3 normal = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     precise float pair_friction = friction * collider.shape.w;
-    precise vec3 led = normal * led_out(depth, before, recovery);
-    return Contact(contact_displacement(displacement, surface, normal, depth, pair_friction), depth, normal,
+    precise vec3 led = out_of * led_out(depth, before, recovery);
+    return Contact(contact_displacement(displacement, surface, out_of, depth, pair_friction), depth, out_of,
                    vec4(surface.x, surface.y, surface.z, pair_friction), led);
 }
 

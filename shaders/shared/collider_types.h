@@ -28,13 +28,18 @@ struct ColliderRecord {
                  // sqrt(friction)
     vec4 way_out;  // xyz: outward normal, in its frame, of the face by which cloth leaves a box that it started in;
                    // zero: by the nearest one. Mesh: x: first texel of its field, y: how far outside its surface
-                   // contact takes it, m. w: what none of its surface moves farther than in the substep, m
+                   // contact takes it, m, z: the share of the frame that is over when the substep ends. w: what none
+                   // of its surface moves farther than in the substep, m
 };
 
 /// Distances to a mesh (mesh/distance_field.h) as texels: the first sample's place in the mesh's frame and the spacing,
 /// m; the number of samples along x, y, z; then, for every sample, x fastest, then y, then z, it and those one farther
-/// along y, along z, along both, m. Two texels are then a cell.
+/// along y, along z, along both, m. Two texels are then a cell. Of a mesh that deforms, the second texel's w is the
+/// share of the frame that a substep is, and each sample has three texels: such distances when the frame begins, such
+/// when it ends, and how far the surface nearest to the sample moves in the frame, on average of the surface nearest at
+/// its begin and at its end, in the mesh's frame, m.
 const int field_head = 2;
+const int moving_point_texels = 3;
 
 /// The surface that a particle lies on. Contact between cloths needs the whole law of it: told of less, a heap takes
 /// what the floor gives its lowest particles, friction above all, for motion, and never rests.

@@ -157,6 +157,21 @@ TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {
     }
 }
 
+/// A ball swells from 0.2 to 0.6 m within a second.
+TEST_F(Raster, MeshesAreDrawnInTheirForm) {
+    SceneDescription scene = dark_room();
+    scene.colliders.push_back(
+        painted(test::deforming_mesh(test::ball_mesh(0.2, 48), {0, 0, 0}, 3, 2,
+                                     [](const Vec3& at, std::size_t k) { return (1.0 + double(k)) * at; }),
+                green));
+    for (const auto& [time, radius] : {std::pair{0.0, 0.2}, {0.25, 0.3}, {1.0, 0.6}}) {
+        const Picture picture = draw(scene, {}, {.time = time});
+        const auto at = [&](double x) { return channels(picture.at(pixel(scene, {x, 0, 0}))); };
+        EXPECT_EQ(at(0.93 * radius), channels(green)) << time;
+        EXPECT_EQ(at(1.12 * radius), channels(black)) << time;
+    }
+}
+
 /// The formula of shaders/include/shading.h, written a second time in double precision.
 struct Shading {
     Vec3 albedo, normal, to_eye, sky, ground;

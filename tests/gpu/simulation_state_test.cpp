@@ -235,6 +235,16 @@ constexpr const char* passed_scene = R"({"time": {"fps": 60, "frames": 49},
 const std::string passed_by_lines = with_method(passed_scene, "\"line\", \"substeps\": 4");
 const std::string passed_by_auto = with_method(passed_scene, "\"auto\"");
 
+// A box becomes twice as high and low again below the cloth, drawn.
+const std::string on_what_deforms = R"({"time": {"fps": 60, "frames": 25}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"grid": [11, 9], "size": [0.4, 0.4], "placement": {"origin": [-0.2, 0.12, -0.2], "v": [0, 0, 1]}}],
+  "colliders": {"meshes": [{"file": ")" DRAPE_SOURCE_DIR "/tests/scene/box.obj\", \"frames\": \"" DRAPE_SOURCE_DIR
+                                    R"(/tests/scene/box_pose_#.obj", "frames_per_second": 10, "frames_start": 0.1,
+                            "loop": true, "scale": 0.5, "position": [-0.5, 0, 0], "spacing": 0.04}]},
+  "solver": {"method": %s}})";
+const std::string deforming_by_auto = with_method(on_what_deforms, "\"auto\"");
+const std::string deforming_by_lines = with_method(on_what_deforms, "\"line\", \"substeps\": 4");
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SimulationStateTest,
     testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene},
@@ -244,7 +254,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
                     Case{"Alike", alike_scene, true}, Case{"WeatherByAuto", weather_by_auto.c_str()},
                     Case{"WeatherByLines", weather_by_lines.c_str()}, Case{"PassedByLines", passed_by_lines.c_str()},
-                    Case{"PassedByAuto", passed_by_auto.c_str()}),
+                    Case{"PassedByAuto", passed_by_auto.c_str()},
+                    Case{"DeformingByAuto", deforming_by_auto.c_str(), true},
+                    Case{"DeformingByLines", deforming_by_lines.c_str(), true}),
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {

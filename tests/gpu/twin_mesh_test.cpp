@@ -36,6 +36,49 @@ TEST(TwinMeshTest, Explicit) {
     compare(scene);
 }
 
+/// A ball that becomes longer and turns on a path, a ring that swells, and a bowl that tilts, beside meshes that keep
+/// their form.
+std::vector<Collider> deforming_meshes() {
+    Collider ball{
+        test::deforming_mesh(test::ball_mesh(0.15, 16), {-0.2, -0.2, 0.05}, 8, 24, [](const Vec3& at, auto k) {
+            return Vec3{at[0] * (1 + 0.1 * double(k)), at[1] * (1 + 0.05 * double(k)),
+                        at[2] + 0.3 * double(k) * at[0] * at[0]};
+        })};
+    ball.path.keys = {{0, {0, 0, 0}, {}}, {0.3, {0.05, 0.1, 0}, {20, 90, 10}}};
+    const auto swollen = [](const Vec3& at, auto k) { return Vec3{at[0], at[1] * (1 + 0.2 * double(k)), at[2]}; };
+    Mesh ring = test::deforming_mesh(test::torus_mesh(0.2, 0.06, 24), {0.25, -0.2, 0.25}, 3, 30, swollen);
+    ring.loop = true;
+    ring.frames_start = 0.05;
+    const auto tilted = [](const Vec3& at, auto k) { return Vec3{at[0], at[1] + 0.1 * double(k) * at[0], at[2]}; };
+    const Mesh bowl = test::deforming_mesh(test::ball_mesh(0.15, 16), {0.3, -0.25, -0.2}, 12, 60, tilted, 0.02);
+    std::vector<Collider> all = meshes();
+    all.insert(all.begin() + 1, {ball, {ring}, {bowl}});
+    return all;
+}
+
+SceneDescription everything_on_deforming(SolverMethod method) {
+    SceneDescription scene = everything_on_meshes(method);
+    scene.colliders = deforming_meshes();
+    return scene;
+}
+
+TEST(TwinMeshTest, DeformingByRelax) { compare(everything_on_deforming(SolverMethod::relax)); }
+TEST(TwinMeshTest, DeformingByLine) { compare(everything_on_deforming(SolverMethod::line)); }
+
+TEST(TwinMeshTest, DeformingByExplicit) {
+    SceneDescription scene = everything_on_deforming(SolverMethod::explicit_steps);
+    scene.solver.substeps = 60;
+    compare(scene);
+}
+
+TEST(TwinMeshTest, DeformingOnALongWay) {
+    SceneDescription scene = everything_on_deforming(SolverMethod::line);
+    scene.solver.substeps = 2;
+    scene.cloths[0].velocity = {0, -12, 0};
+    scene.cloths[0].thickness = 0.002;
+    compare(scene);
+}
+
 TEST(TwinMeshTest, WithEdgesOfABox) {
     SceneDescription scene = everything_on_meshes(SolverMethod::line);
     scene.colliders.push_back({Box{{0, -0.2, -0.3}, {0.1, 0.05, 0.1}}, 0.3, {10, 20, 30}});

@@ -377,6 +377,22 @@ class Examples(unittest.TestCase):
         self.assertRegex(said, r"4 cloths on .*: 100 steps in .* cloth frames a second")
         self.assertRegex(said, r"[1-9]\d* episodes ended, \d+ of them at the goal")
 
+    def test_walking_cape(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = [sys.executable, ROOT / "tools/examples/python/walking_cape.py", folder]
+            said = subprocess.run(program, text=True, capture_output=True, check=True).stdout
+            self.assertRegex(said, r"^\d{4} vertices, \d{4,5} triangles, 30 poses\n$")
+            # The array and the point cache hold the same poses.
+            walk = np.load(pathlib.Path(folder) / "walk.npy")
+            cache = np.frombuffer(pathlib.Path(folder, "walk.pc2").read_bytes()[32:], "<f4")
+            np.testing.assert_array_equal(walk.ravel(), cache)
+            few = {"/time/frames": 4, "/solver/method": "line", "/solver/substeps": 4, "/cloths/0/self_collision": False}
+            scene = drape.load(pathlib.Path(folder) / "cape.json", few)
+        simulation = drape.Simulation(scene, validate=True)
+        for _ in range(3):
+            simulation.step()
+        self.assertTrue(np.isfinite(simulation.positions("cape")).all())
+
     def test_fit_swing(self):
         said, _ = self.run_example("fit_swing.py", "16", "3")
         off = [float(each) for each in re.findall(r"the edge is ([\d.]+) mm off", said)]

@@ -414,6 +414,13 @@ const Malformed collider_cases[] = {
       "3:10: /colliders/meshes/2/file: cannot read /there/is/no.obj: No such file or directory",
       "3:58: /colliders/meshes/3/scale: expected a number > 0 (single precision), got 0",
       "3:71: /colliders/meshes/4/file: cannot read /dev/null: it is not a file"}},
+    {"MeshesThatDeform",
+     scene("\"colliders\": {\"meshes\": [{\"loop\": true, \"file\": \"" DRAPE_SOURCE_DIR
+           "/tests/scene/box.obj\"},\n{\"frames\": \"/there/is/no.pc2\", \"file\": \"" DRAPE_SOURCE_DIR
+           "/tests/scene/box.obj\"},\n{\"frames_per_second\": 0, \"frames\": \"x.npy\", \"file\": \"y.obj\"}]}"),
+     {"2:35: /colliders/meshes/0/loop: expected frames too, got none",
+      "3:12: /colliders/meshes/1/frames: cannot read '/there/is/no.pc2': No such file or directory",
+      "4:23: /colliders/meshes/2/frames_per_second: expected a number > 0 (single precision), got 0"}},
     {"FieldsOfMeshes",
      scene("\"colliders\": {\"meshes\": [{\"file\": \"" DRAPE_SOURCE_DIR
            "/tests/scene/box.obj\", \"position\": [0, 9, 0]},\n"

@@ -255,7 +255,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"box", {"path"}},
         {"ellipsoid", {"path"}},
         {"capsule", {"radii", "path"}},
-        {"mesh", {"file", "shell", "spacing", "path"}},
+        {"mesh", {"file", "shell", "spacing", "frames", "path"}},
         {"cutter", {"triangle", "active", "path"}},
         {"oracle", {"check"}}};
     for (const Definition* object : scene_objects()) {

@@ -10,7 +10,8 @@
 #include "drape/fabric.h"
 #include "drape/scene_reader.h"
 #include "full_scene.h"
-#include "mesh/mesh_shape.h"
+#include "mesh/mesh_sequence.h"
+#include "scene/collider_pose.h"
 
 namespace drape {
 namespace {
@@ -120,8 +121,11 @@ TEST(SceneValues, PinsOfTheFullScene) {
 }
 
 TEST(SceneValues, CollidersOfTheFullScene) {
-    Mesh mesh{DRAPE_SOURCE_DIR "/tests/scene/box.obj", 0.5, {1, 2, 3}, 0.25, 0.125};
+    Mesh mesh{DRAPE_SOURCE_DIR "/tests/scene/box.obj",        0.5,  {1, 2, 3}, 0.25, 0.125,
+              DRAPE_SOURCE_DIR "/tests/scene/box_pose_#.obj", 12.5, 0.25,      true};
     read_file(mesh);
+    ASSERT_TRUE(mesh.sequence);
+    EXPECT_EQ(mesh.sequence->count(), 2u);
     const auto collider = [](ColliderShape shape, double friction, Vec3 rotate, MotionKey key, double red) {
         return Collider{shape, friction, rotate, {{key}}, {red, 0.1, 0.2}};
     };
@@ -133,7 +137,32 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
         {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}},
         collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6)};
-    EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
+    std::vector<Collider> read = scene_of(testing::full_scene).colliders;
+    ASSERT_EQ(read.size(), expected.size());
+    // Several files are read anew.
+    Mesh& again = std::get<Mesh>(read.back().shape);
+    ASSERT_TRUE(again.sequence);
+    EXPECT_TRUE(std::ranges::equal(again.sequence->places(), mesh.sequence->places()));
+    again.sequence = mesh.sequence;
+    again.shape = mesh.shape;
+    EXPECT_EQ(read, expected);
+}
+
+TEST(SceneValues, PosesFollowTheClock) {
+    Mesh mesh{.file = DRAPE_SOURCE_DIR "/tests/scene/box.obj",
+              .frames = DRAPE_SOURCE_DIR "/tests/scene/box_pose_#.obj",
+              .frames_per_second = 10,
+              .frames_start = 0.5};
+    read_file(mesh);
+    for (const auto& [time, pose] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.55, 0.5}, {0.6, 1.0}, {9.0, 1.0}})
+        EXPECT_NEAR(pose_number(mesh, time), pose, 1e-9) << time;
+    mesh.loop = true;
+    for (const auto& [time, pose] : {std::pair{0.5, 0.0}, {0.65, 1.5}, {0.7, 0.0}, {0.25, 1.5}})
+        EXPECT_NEAR(pose_number(mesh, time), pose, 1e-9) << time;
+    const Collider collider{mesh};
+    EXPECT_NEAR(deformed(collider, 0.5, 0.55), deformed(collider, 0.5, 0.6) / 2, 1e-9);
+    EXPECT_GT(deformed(collider, 0.5, 0.6), 0.01);
+    EXPECT_EQ(shape_geometry(formed(collider, 0.5).shape).center, shape_geometry(mesh).center);
 }
 
 TEST(SceneValues, FilesLieBesideTheScene) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "drape/scene.h"
-#include "mesh/mesh_shape.h"
+#include "mesh/mesh_sequence.h"
 
 namespace drape::test {
 
@@ -91,6 +91,25 @@ inline Mesh mesh_of(const Triangles& triangles, const Vec3& position, std::optio
     mesh.position = position;
     mesh.shell = shell;
     mesh.shape = std::make_shared<const MeshShape>(triangles.vertices, triangles.triangles, shell);
+    return mesh;
+}
+
+/// A mesh that deforms: `at(place, pose)` says where a vertex is in each pose that stands at `place` in the mesh, m.
+template <class At>
+Mesh deforming_mesh(const Triangles& triangles, const Vec3& position, std::size_t poses, double per_second,
+                    const At& at, std::optional<double> shell = {}) {
+    Mesh mesh;
+    mesh.position = position;
+    mesh.shell = shell;
+    mesh.frames_per_second = per_second;
+    std::vector<std::uint32_t> places;
+    const MeshShape form(triangles.vertices, triangles.triangles, shell, &places);
+    std::vector<float> xyz;
+    for (std::size_t pose = 0; pose < poses; ++pose)
+        for (const Vec3& vertex : triangles.vertices)
+            for (const double x : at(vertex, pose)) xyz.push_back(static_cast<float>(x));
+    mesh.sequence = std::make_shared<const MeshSequence>(form, places, std::move(xyz));
+    mesh.shape = mesh.sequence->form();
     return mesh;
 }
 

@@ -370,7 +370,8 @@ Json::Value collider_json(const Collider& collider, const std::vector<double>& t
                                     {"size", json_of(shape_geometry(collider.shape).size)},
                                     {"color", json_of(collider.color)},
                                     {"poses", poses_json(times, collider.path.moves(), pose_at)}});
-    if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) put_mesh(json, *mesh->shape);
+    if (std::holds_alternative<Mesh>(collider.shape))
+        put_mesh(json, *std::get<Mesh>(formed(collider, times.empty() ? 0 : times.front()).shape).shape);
     return json;
 }
 

@@ -20,6 +20,7 @@
 
 namespace drape {
 
+class MeshSequence;
 class MeshShape;
 
 /// A value of an enumeration and its word in the scene file.
@@ -221,8 +222,8 @@ struct Capsule {
     bool operator==(const Capsule&) const = default;
 };
 
-/// A triangle mesh from a file: a solid body, or a shell. The scene reader reads the file; whoever fills this otherwise
-/// calls `read_file` (drape/scene_reader.h).
+/// A triangle mesh from a file: a solid body, or a shell, which may deform. The scene reader reads the files; whoever
+/// fills this otherwise calls `read_file` (drape/scene_reader.h).
 struct Mesh {
     std::string file;             ///< OBJ, PLY, STL or glTF
     double scale = 1;             ///< m per unit of the file
@@ -231,8 +232,15 @@ struct Mesh {
     /// Distances are known at points so far apart, m; default: half of the least distance of particles, or more where
     /// the field would be too large.
     std::optional<double> spacing;
-    std::shared_ptr<const MeshShape> shape{};  ///< what was read
-    double grown = 0;                          ///< m: contact takes the surface to be so far outside of it
+    /// Where the file's vertices are in a series of poses: PC2, NPY, or the name of one of many OBJ files, with # for
+    /// the digits of its number. Empty: it keeps its form.
+    std::string frames{};
+    double frames_per_second = 24;             ///< poses a second; between two the vertices move along straight lines
+    double frames_start = 0;                   ///< s: when the first pose is; before it, that holds
+    bool loop = false;                         ///< the first pose follows the last one; else the last one holds
+    std::shared_ptr<const MeshShape> shape{};  ///< what was read; of one that deforms, a box holds all its poses
+    std::shared_ptr<const MeshSequence> sequence{};  ///< the poses; null where there are none
+    double grown = 0;                                ///< m: contact takes the surface to be so far outside of it
     bool operator==(const Mesh&) const = default;
 };
 
@@ -251,6 +259,11 @@ struct Collider {
     MotionPath path{};
     Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
     int kind() const { return static_cast<int>(shape.index()); }
+    bool deforms() const {
+        const Mesh* const mesh = std::get_if<Mesh>(&shape);
+        return mesh != nullptr && mesh->sequence != nullptr;
+    }
+    bool moves() const { return path.moves() || deforms(); }
     bool operator==(const Collider&) const = default;
 };
 

@@ -64,7 +64,7 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
 /// directory's, "".
 std::string scene_folder(const std::string& path);
 
-/// Reads a mesh's file. Throws an Error without a place.
+/// Reads a mesh's files. Throws an Error without a place.
 void read_file(Mesh& mesh);
 
 /// Return what `read_scene` or `read_scene_text` reads, or throw SceneFailure.

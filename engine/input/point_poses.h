@@ -1,0 +1,37 @@
+// Reads how the vertices of a mesh move.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace drape::input {
+
+/// The vertices (`v`) of an OBJ file in their order, and its faces as triangles: one with more corners is cut into a
+/// fan from its first one.
+struct ObjMesh {
+    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Throws OutputError naming the file and the line.
+ObjMesh read_obj(const std::filesystem::path& path);
+
+struct PointPoses {
+    std::size_t points = 0, count = 0;
+    std::vector<float> xyz;  ///< in the file's unit; pose by pose, point by point
+};
+
+/// At most so many bytes of them are read.
+inline constexpr std::uint64_t most_pose_bytes = std::uint64_t{512} << 20;
+
+/// Returns the poses of so many points that a file or several have, of the kind that the name ends in:
+/// - .npy: float32 or float64, [poses, points, 3]; .npz: the same as its array `positions`;
+/// - .pc2: the samples of a point cache;
+/// - .obj: the vertices of files with # in the name for the digits of their numbers, from the least number on.
+/// Throws OutputError naming the file: where it is not that, is of another number of points (both are said), has
+/// coordinates that are not finite, ends too early, or where there are too many poses, or a number is missing.
+PointPoses read_poses(const std::filesystem::path& path, std::size_t points);
+
+}  // namespace drape::input

@@ -1,0 +1,64 @@
+#include "mesh/sequence_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <tuple>
+
+#include "base/vectors.h"
+#include "input/file_source.h"
+#include "input/point_poses.h"
+#include "mesh/mesh_error.h"
+#include "mesh/mesh_file.h"
+
+namespace drape {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<const MeshSequence> read_both(const std::string& file, const std::string& poses, double scale,
+                                              std::optional<double> shell) {
+    if (input::extension_of(file) != ".obj")
+        throw MeshError(fmt::format("expected an OBJ file, whose vertices have numbers, beside poses, got {}", file));
+    input::ObjMesh mesh = input::read_obj(file);
+    if (mesh.triangles.empty()) throw MeshError(fmt::format("expected triangles, {} has none", file));
+    if (mesh.triangles.size() > mesh_triangle_limit)
+        throw MeshError(fmt::format("expected at most {} triangles, {} has more", mesh_triangle_limit, file));
+    for (Vec3& at : mesh.vertices) at = times(scale, at);
+    std::vector<std::uint32_t> places;
+    const MeshShape form(mesh.vertices, std::move(mesh.triangles), shell, &places);
+    std::vector<float> xyz = input::read_poses(poses, mesh.vertices.size()).xyz;
+    for (float& x : xyz) x = static_cast<float>(scale * x);
+    return std::make_shared<const MeshSequence>(form, places, std::move(xyz));
+}
+
+/// Several files are read anew, since each of them may have changed.
+using Key = std::tuple<std::string, fs::file_time_type, std::string, fs::file_time_type, double, double>;
+
+}  // namespace
+
+std::shared_ptr<const MeshSequence> read_sequence(const std::string& file, const std::string& poses, double scale,
+                                                  std::optional<double> shell) {
+    static std::mutex mutex;
+    static std::map<Key, std::weak_ptr<const MeshSequence>> kept;
+    std::error_code code, no_one_file;
+    const Key key{file,  fs::last_write_time(file, code),
+                  poses, fs::last_write_time(poses, no_one_file),
+                  scale, shell.value_or(0)};
+    const std::lock_guard lock(mutex);
+    try {
+        if (no_one_file) return read_both(file, poses, scale, shell);
+        std::erase_if(kept, [](const auto& each) { return each.second.expired(); });
+        std::weak_ptr<const MeshSequence>& known = kept[key];
+        std::shared_ptr<const MeshSequence> sequence = known.lock();
+        if (!sequence) known = sequence = read_both(file, poses, scale, shell);
+        return sequence;
+    } catch (const OutputError& error) {
+        throw MeshError(error.what());
+    }
+}
+
+}  // namespace drape
