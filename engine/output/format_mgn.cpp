@@ -88,7 +88,8 @@ extern const OutputFormat mgn_format{
     .is_archive = true,
     .follows_cuts = false,
     .frame_files = false,
-    .frame_bytes = [](const FrameSize& frame) { return 2 * 12 * frame.particles; },
+    .frame_bytes =
+        [](const FrameSize& frame) { return (frame.packed ? 1 : 2) * 12 * (frame.particles + frame.obstacle_nodes); },
     .owns = [](std::string_view name) { return name == "trajectory.npz" || name == "trajectory_frames.npz"; },
     .open = open_writer<Trajectory>};
 

@@ -149,7 +149,7 @@ extern const OutputFormat npz_format{
     .details = true,
     .is_archive = true,
     .frame_files = false,
-    .frame_bytes = [](const FrameSize& frame) { return 2 * 26 * frame.particles; },
+    .frame_bytes = [](const FrameSize& frame) { return (frame.packed ? 1 : 2) * 26 * frame.particles; },
     .owns = owns,
     .open = open_writer<NpzFiles>};
 

@@ -59,7 +59,10 @@ extern const OutputFormat ply_format{
     .files = "mesh_FRAME.ply, colliders.ply, colliders_FRAME.ply",
     .holds = "the same, binary; colliders are one mesh per file",
     .frame_files = true,
-    .frame_bytes = [](const FrameSize& frame) { return 20 * frame.particles + 13 * frame.triangles; },
+    .frame_bytes =
+        [](const FrameSize& frame) {
+            return 20 * frame.particles + 12 * frame.moving_vertices + 13 * (frame.triangles + frame.moving_triangles);
+        },
     .owns =
         [](std::string_view name) {
             return is_cloth_frame_file_name(name, "mesh", "ply") || is_colliders_name(name, "ply");

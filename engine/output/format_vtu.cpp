@@ -139,7 +139,11 @@ extern const OutputFormat vtu_format{
         "times; colliders likewise, with the number that contact has; colliders.pvd",
     .details = true,
     .frame_files = true,
-    .frame_bytes = [](const FrameSize& frame) { return 34 * frame.particles + 33 * frame.triangles; },
+    .frame_bytes =
+        [](const FrameSize& frame) {
+            return 34 * frame.particles + 33 * frame.triangles + 12 * frame.moving_vertices +
+                   37 * frame.moving_triangles;
+        },
     .owns =
         [](std::string_view name) {
             return is_cloth_frame_file_name(name, "mesh", "vtu") || is_colliders_name(name, "vtu") ||

@@ -89,6 +89,9 @@ struct FrameSize {
     std::uint64_t particles = 0;
     std::uint64_t triangles = 0;  ///< 0: holes or cuts leave fewer
     std::uint64_t pixels = 0;
+    std::uint64_t moving_vertices = 0, moving_triangles = 0;  ///< of colliders that move
+    std::uint64_t obstacle_nodes = 0;                         ///< as graph networks see colliders
+    bool packed = false;                                      ///< archives take less than what waits for them
 };
 
 /// A row of the table. The command line's help, the check of its options, docs/export_formats.md (usage_test) and the

@@ -13,6 +13,7 @@
 #include "run/reproducer.h"
 #include "run/run.h"
 #include "run/run_description.h"
+#include "run/written_colliders.h"
 #include "scene/start_crossings.h"
 #include "simulation/frame_checks.h"
 
@@ -91,6 +92,12 @@ void expect_room(const OutputFolder& folder, const RunRequest& request, const Sc
         whole = whole && cloth.holes.empty();
     }
     if (!whole) size.triangles = 0;
+    for (const WrittenCollider& collider : written_colliders(scene)) {
+        size.moving_vertices += collider.moves ? collider.vertices.size() : 0;
+        size.moving_triangles += collider.moves ? collider.faces.size() / 3 : 0;
+    }
+    for (const WrittenCollider& obstacle : written_obstacles(scene)) size.obstacle_nodes += obstacle.vertices.size();
+    size.packed = request.deflates;
     std::uint64_t frame_bytes = 0;
     for (const OutputFormat* format : output_formats(request.formats))
         if (format->frame_bytes) frame_bytes += format->frame_bytes(size);

@@ -65,7 +65,7 @@ Shape common_shape(const SweepSpec& spec) {
     return common.value_or(Shape{-1, -1, -1, -1});
 }
 
-Json::Value feature(const char* type, std::vector<std::int64_t> shape, const char* dtype) {
+Json::Value feature(const char* type, const std::vector<std::int64_t>& shape, const char* dtype) {
     Json::Value value(Json::objectValue);
     value["type"] = type;
     value["dtype"] = dtype;
