@@ -98,7 +98,8 @@ class MeshFields::Forms {
             const double pose = pose_number(mesh, time);
             for (const auto& [number, known] : recent)
                 if (number == pose) return known;
-            recent.emplace_back(pose, std::make_shared<const FormLists>(form_lists(*mesh.sequence->at(pose), field)));
+            recent.emplace_back(pose,
+                                std::make_shared<const FormLists>(form_lists(*mesh.sequence->at(pose), field, exact)));
             if (recent.size() > kept_forms) recent.pop_front();
             return recent.back().second;
         }

@@ -1,6 +1,7 @@
 #include "mesh/form_lists.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace drape {
 
@@ -33,7 +34,7 @@ void FormLists::append(const FormLists& other) {
     add(sides, other.sides);
 }
 
-FormLists form_lists(const MeshShape& form, const DistanceField& field) {
+FormLists form_lists(const MeshShape& form, const DistanceField& field, double exact) {
     FormLists lists;
     form.tree().append_to(lists.nodes);
     for (const Triangle& triangle : form.triangles())
@@ -43,14 +44,17 @@ FormLists form_lists(const MeshShape& form, const DistanceField& field) {
                 {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]), 0});
         }
     std::uint32_t nearest = 0;
+    const double half_diagonal = 0.5 * (glsl::guess_block - 1) * std::sqrt(3.0) * field.spacing;
     for_each_block(field, [&](const Vec3& middle) {
-        (void)form.tree().distance(middle, 0, nearest);
-        lists.guesses.push_back(nearest);
+        // The tree may tell it 2 % too far, and a sample be nearer by half the block's diagonal.
+        const double least = form.tree().distance(middle, 0, nearest) / 1.02 - half_diagonal - 0.5 * form.shell();
+        lists.guesses.push_back(least > exact ? nearest | glsl::guess_does : nearest);
     });
     const std::size_t columns = field.size[0], rows = std::size_t{field.size[1]} * field.size[2];
     lists.sides.resize((columns * rows + 31) / 32);
     for (std::size_t row = 0; row < rows; ++row) {
-        const auto y = static_cast<double>(row % field.size[1]), z = static_cast<double>(row / field.size[1]);
+        const std::size_t line = row % field.size[1], layer = row / field.size[1];
+        const auto y = static_cast<double>(line), z = static_cast<double>(layer);
         const std::vector<bool> inside =
             form.inside({field.lower[0], field.lower[1] + y * field.spacing, field.lower[2] + z * field.spacing},
                         field.spacing, columns);

@@ -1,4 +1,4 @@
-// What devices make the field of a mesh that deforms from, in one of its forms (shared/form_types.h).
+// Devices make the field of a mesh that deforms from these lists, one set for each form (shared/form_types.h).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace drape {
 struct FormLists {
     std::vector<glsl::FormNode> nodes;
     std::vector<glsl::vec4> corners;     ///< m, in the mesh's frame: three for each triangle
-    std::vector<std::uint32_t> guesses;  ///< by block of samples: a triangle near its middle
+    std::vector<std::uint32_t> guesses;  ///< by block of samples: the triangle nearest to its middle
     std::vector<std::uint32_t> sides;    ///< a bit for every sample, from the lowest on: 1 inside
 
     void append(const FormLists& other);
 };
 
-/// Returns those of a form. `field`: that which is to be made, without its samples.
-FormLists form_lists(const MeshShape& form, const DistanceField& field);
+/// Returns those of a form. `field`: that which is to be made, without its samples, exact so near to the surface, m.
+FormLists form_lists(const MeshShape& form, const DistanceField& field, double exact);
 
 }  // namespace drape

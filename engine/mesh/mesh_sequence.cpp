@@ -43,7 +43,8 @@ std::vector<float> welded(const std::vector<std::uint32_t>& places, std::size_t 
 
 }  // namespace
 
-MeshSequence::MeshSequence(const MeshShape& form, const std::vector<std::uint32_t>& places, std::vector<float> xyz)
+MeshSequence::MeshSequence(const MeshShape& form, const std::vector<std::uint32_t>& places,
+                           const std::vector<float>& xyz)
     : vertices_(form.vertices().size()), xyz_(welded(places, vertices_, xyz)) {
     count_ = xyz_.size() / (3 * vertices_);
     if (count_ == 0) throw MeshError("expected a pose, got none");

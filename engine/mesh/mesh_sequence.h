@@ -19,7 +19,7 @@ class MeshSequence {
     /// Takes the vertices' places in every pose, in m, pose by pose, in the order and the frame of those that `form`
     /// was made of; `places` are what its constructor gave. Throws MeshError where a pose parts vertices that lie in
     /// one place in the form, or turns a closed surface inside out.
-    MeshSequence(const MeshShape& form, const std::vector<std::uint32_t>& places, std::vector<float> xyz);
+    MeshSequence(const MeshShape& form, const std::vector<std::uint32_t>& places, const std::vector<float>& xyz);
     MeshSequence(const MeshSequence&) = delete;
 
     std::size_t count() const { return count_; }

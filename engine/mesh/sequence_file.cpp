@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <tuple>
+#include <vector>
 
 #include "base/vectors.h"
 #include "input/file_source.h"
@@ -32,10 +34,23 @@ std::shared_ptr<const MeshSequence> read_both(const std::string& file, const std
     const MeshShape form(mesh.vertices, std::move(mesh.triangles), shell, &places);
     std::vector<float> xyz = input::read_poses(poses, mesh.vertices.size()).xyz;
     for (float& x : xyz) x = static_cast<float>(scale * x);
-    return std::make_shared<const MeshSequence>(form, places, std::move(xyz));
+    return std::make_shared<const MeshSequence>(form, places, xyz);
 }
 
-/// Several files are read anew, since each of them may have changed.
+/// Several files are read anew, since each of them may have changed; what they hold may be known.
+std::shared_ptr<const MeshSequence> known_one(std::shared_ptr<const MeshSequence> made) {
+    static std::vector<std::weak_ptr<const MeshSequence>> kept;
+    std::erase_if(kept, [](const auto& each) { return each.expired(); });
+    for (const auto& each : kept)
+        if (std::shared_ptr<const MeshSequence> known = each.lock();
+            known && known->form()->shell() == made->form()->shell() &&
+            known->form()->triangles() == made->form()->triangles() &&
+            std::ranges::equal(known->places(), made->places()))
+            return known;
+    kept.push_back(made);
+    return made;
+}
+
 using Key = std::tuple<std::string, fs::file_time_type, std::string, fs::file_time_type, double, double>;
 
 }  // namespace
@@ -50,7 +65,7 @@ std::shared_ptr<const MeshSequence> read_sequence(const std::string& file, const
                   scale, shell.value_or(0)};
     const std::lock_guard lock(mutex);
     try {
-        if (no_one_file) return read_both(file, poses, scale, shell);
+        if (no_one_file) return known_one(read_both(file, poses, scale, shell));
         std::erase_if(kept, [](const auto& each) { return each.second.expired(); });
         std::weak_ptr<const MeshSequence>& known = kept[key];
         std::shared_ptr<const MeshSequence> sequence = known.lock();

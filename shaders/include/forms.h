@@ -113,8 +113,9 @@ struct FormFoot {
 
 SHARED FormFoot nearest_foot(vec3 point, FormPush push, int form, uint guess WITH_FORMS) {
     int corner = push.first.y + 3 * form * push.count.y, node = push.first.x + form * push.count.x;
-    FormFoot nearest = FormFoot(form_foot(point, corner, guess FORMS), guess);
-    int at = 0;
+    uint first = guess & ~guess_does;
+    FormFoot nearest = FormFoot(form_foot(point, corner, first FORMS), first);
+    int at = first == guess ? 0 : push.count.x;
     while (at < push.count.x) {
         FormNode box = FORM_NODE(node + at);
         bool beyond = is_beyond(box_gap(point, box), nearest.foot.squared, push.exact);

@@ -1,4 +1,4 @@
-// What the host tells of a mesh that deforms, from which passes make the frame's field (mesh_form.comp), in std430.
+// The host tells this of a mesh that deforms, and passes make the frame's field from it (mesh_form.comp), in std430.
 #ifndef DRAPE_FORM_TYPES_H
 #define DRAPE_FORM_TYPES_H
 
@@ -30,8 +30,10 @@ struct FormPush {
     int first_distance;  // of this mesh, in the distances that the first pass leaves to the second
 };
 
-/// A guess of the nearest triangle serves so many samples along each axis.
+/// A guess of the nearest triangle serves so many samples along each axis. With this bit it has to do: contact does not
+/// ask for distances there.
 const int guess_block = 4;
+const uint guess_does = 0x80000000u;
 
 #ifdef __cplusplus
 }  // namespace drape::glsl

@@ -236,7 +236,7 @@ const std::string passed_by_lines = with_method(passed_scene, "\"line\", \"subst
 const std::string passed_by_auto = with_method(passed_scene, "\"auto\"");
 
 // A box becomes twice as high and low again below the cloth, drawn.
-const std::string on_what_deforms = R"({"time": {"fps": 60, "frames": 25}, "image": {"size": [48, 32], "samples": 1},
+const std::string on_what_deforms = R"({"time": {"fps": 60, "frames": 41}, "image": {"size": [48, 32], "samples": 1},
   "cloths": [{"grid": [11, 9], "size": [0.4, 0.4], "placement": {"origin": [-0.2, 0.12, -0.2], "v": [0, 0, 1]}}],
   "colliders": {"meshes": [{"file": ")" DRAPE_SOURCE_DIR "/tests/scene/box.obj\", \"frames\": \"" DRAPE_SOURCE_DIR
                                     R"(/tests/scene/box_pose_#.obj", "frames_per_second": 10, "frames_start": 0.1,

@@ -137,31 +137,23 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
         {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}},
         collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6)};
-    std::vector<Collider> read = scene_of(testing::full_scene).colliders;
-    ASSERT_EQ(read.size(), expected.size());
-    // Several files are read anew.
-    Mesh& again = std::get<Mesh>(read.back().shape);
-    ASSERT_TRUE(again.sequence);
-    EXPECT_TRUE(std::ranges::equal(again.sequence->places(), mesh.sequence->places()));
-    again.sequence = mesh.sequence;
-    again.shape = mesh.shape;
-    EXPECT_EQ(read, expected);
+    EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
 }
 
 TEST(SceneValues, PosesFollowTheClock) {
     Mesh mesh{.file = DRAPE_SOURCE_DIR "/tests/scene/box.obj",
               .frames = DRAPE_SOURCE_DIR "/tests/scene/box_pose_#.obj",
-              .frames_per_second = 10,
+              .frames_per_second = 8,
               .frames_start = 0.5};
     read_file(mesh);
-    for (const auto& [time, pose] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.55, 0.5}, {0.6, 1.0}, {9.0, 1.0}})
+    for (const auto& [time, pose] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {0.5625, 0.5}, {0.625, 1.0}, {9.0, 1.0}})
         EXPECT_NEAR(pose_number(mesh, time), pose, 1e-9) << time;
     mesh.loop = true;
-    for (const auto& [time, pose] : {std::pair{0.5, 0.0}, {0.65, 1.5}, {0.7, 0.0}, {0.25, 1.5}})
+    for (const auto& [time, pose] : {std::pair{0.5, 0.0}, {0.6875, 1.5}, {0.75, 0.0}, {0.4375, 1.5}})
         EXPECT_NEAR(pose_number(mesh, time), pose, 1e-9) << time;
     const Collider collider{mesh};
-    EXPECT_NEAR(deformed(collider, 0.5, 0.55), deformed(collider, 0.5, 0.6) / 2, 1e-9);
-    EXPECT_GT(deformed(collider, 0.5, 0.6), 0.01);
+    EXPECT_NEAR(deformed(collider, 0.5, 0.5625), deformed(collider, 0.5, 0.625) / 2, 1e-9);
+    EXPECT_GT(deformed(collider, 0.5, 0.625), 0.01);
     EXPECT_EQ(shape_geometry(formed(collider, 0.5).shape).center, shape_geometry(mesh).center);
 }
 

@@ -108,7 +108,7 @@ Mesh deforming_mesh(const Triangles& triangles, const Vec3& position, std::size_
     for (std::size_t pose = 0; pose < poses; ++pose)
         for (const Vec3& vertex : triangles.vertices)
             for (const double x : at(vertex, pose)) xyz.push_back(static_cast<float>(x));
-    mesh.sequence = std::make_shared<const MeshSequence>(form, places, std::move(xyz));
+    mesh.sequence = std::make_shared<const MeshSequence>(form, places, xyz);
     mesh.shape = mesh.sequence->form();
     return mesh;
 }

@@ -120,7 +120,8 @@ def poses(vertices):
 
 def scene():
     start, end = 0.4, SECONDS - 0.4
-    walk = [{"t": t, "translate": [0, 0, SPEED * max(0.0, t - start)]} for t in np.arange(start, end + 0.1, 0.4).tolist()]
+    times = np.arange(start, end + 0.1, 0.4).tolist()
+    walk = [{"t": t, "translate": [0, 0, SPEED * (t - start)]} for t in times]
     columns, rows, width, length = 49, 73, 0.50, 0.95
     held = 5  # particles along the edge that each shoulder has
     return {
@@ -137,7 +138,7 @@ def scene():
         "colliders": {
             "planes": [{"friction": 0.6, "color": [0.72, 0.69, 0.65]}],
             "meshes": [{"file": "body.obj", "frames": "walk.npy", "frames_per_second": POSES / CYCLE, "loop": True,
-                        "friction": 0.3, "color": [0.45, 0.50, 0.58], "path": walk}]},
+                        "spacing": 0.02, "friction": 0.3, "color": [0.45, 0.50, 0.58], "path": walk}]},
         "wind": {"velocity": [0, 0, 0.01], "drag": 1.2},
         "camera": {"position": [3.1, 1.7, -1.6], "target": [0, 0.85, 1.2], "fov": 42},
     }
