@@ -27,7 +27,9 @@ void declare_forms(graph::Graph& graph, const SimulationModel& model, SceneInput
     if (pushes.empty()) return;
     // The last mesh's lists end them all.
     const glsl::ivec4 &first = pushes.back().first, &count = pushes.back().count;
-    const auto entries = [](int begin, int each) { return static_cast<std::size_t>(begin + 2 * each); };
+    const auto entries = [](int begin, int each) {
+        return static_cast<std::size_t>(begin) + 2 * static_cast<std::size_t>(each);
+    };
     using graph::Lifetime;
     inputs.form_nodes = graph.buffer<glsl::FormNode>(nodes_name, entries(first.x, count.x), Lifetime::host_input);
     inputs.form_corners = graph.buffer<glsl::vec4>(corners_name, entries(first.y, 3 * count.y), Lifetime::host_input);

@@ -84,7 +84,7 @@ void write_vertices(std::ofstream& file, const Poses& poses) {
 }
 
 std::string cache_file(const Poses& poses, const std::string& name) {
-    const std::string path = (fs::path(testing::TempDir()) / name).string();
+    std::string path = (fs::path(testing::TempDir()) / name).string();
     std::ofstream file(path, std::ios::binary);
     file.write("POINTCACHE2", 12);
     for (const std::int32_t number : {1, static_cast<std::int32_t>(poses[0].size())}) write_bytes(file, number);
@@ -95,7 +95,7 @@ std::string cache_file(const Poses& poses, const std::string& name) {
 }
 
 std::string array_file(const Poses& poses, const std::string& name) {
-    const std::string path = (fs::path(testing::TempDir()) / name).string();
+    std::string path = (fs::path(testing::TempDir()) / name).string();
     std::ofstream file(path, std::ios::binary);
     std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(poses.size()) + ", " +
                          std::to_string(poses[0].size()) + ", 3), }";
