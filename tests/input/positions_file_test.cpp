@@ -35,7 +35,7 @@ class PositionsFile : public ::testing::Test {
     }
     std::string archive(const std::string& part, const std::string& bytes) const {
         OutputFolder folder((folder_ / "zip").string(), ExistingFiles::overwrite);
-        ZipFile zip(folder, "positions.npz");
+        ZipFile zip(folder, "positions.npz", false);
         zip.add(part, bytes);
         zip.commit();
         return read_text(folder_ / "zip/positions.npz");
