@@ -20,11 +20,14 @@ double half_cell(const SceneDescription& scene) {
     return least;
 }
 
+/// Edges of cells that are larger than the mesh would only take the room of its samples.
 double margin_of(const SceneDescription& scene, const Collider& collider) {
+    const Vec3& half_extents = std::get<Mesh>(collider.shape).shape->half_extents();
     double margin = 0;
     for (const Cloth& cloth : scene.cloths) {
         margin = std::max(margin, cloth.thickness + std::get<Mesh>(contact_shape(cloth, collider).shape).grown);
-        if (meets_edges(cloth, {collider})) margin = std::max(margin, edge_reach(cloth));
+        if (meets_edges(cloth, {collider}))
+            margin = std::max(margin, std::min(edge_reach(cloth), *std::ranges::max_element(half_extents)));
     }
     return margin;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "drape/simulation.h"
@@ -131,6 +132,10 @@ TEST_F(WorldTest, WithZUpShippedScenesAreThemselvesTurned) {
 TEST_F(WorldTest, ItsCameraAndFixturesAreTurned) {
     for (const std::string& name : test::shipped_scene_names()) {
         SceneDescription scene = test::shipped_scene(name);
+        // Numbers that are turned do not turn the triangles of a file.
+        if (std::ranges::any_of(scene.colliders,
+                                [](const Collider& each) { return std::holds_alternative<Mesh>(each.shape); }))
+            continue;
         scene.camera.reset();
         for (Collider& collider : scene.colliders) collider.rotate = {}, collider.path = {};
         for (Cloth& cloth : scene.cloths)

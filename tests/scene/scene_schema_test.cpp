@@ -257,6 +257,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"capsule", {"radii", "path"}},
         {"mesh", {"file", "shell", "spacing", "frames", "path"}},
         {"cutter", {"triangle", "active", "path"}},
+        {"solver", {"estimate_error"}},
         {"oracle", {"check"}}};
     for (const Definition* object : scene_objects()) {
         std::set<std::string> keys;
