@@ -46,7 +46,7 @@ extern const OutputFormat obj_format{
             return is_cloth_frame_file_name(name, "mesh", "obj") || is_colliders_name(name, "obj");
         },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {
-        return std::make_unique<MeshSequence>(folder, run, "obj", MeshTexts{mesh_text, obj_colliders_text});
+        return std::make_unique<FaceSequence>(folder, run, "obj", MeshTexts{mesh_text, obj_colliders_text});
     }};
 
 }  // namespace drape

@@ -68,7 +68,7 @@ extern const OutputFormat ply_format{
             return is_cloth_frame_file_name(name, "mesh", "ply") || is_colliders_name(name, "ply");
         },
     .open = [](OutputFolder& folder, const WrittenRun& run) -> std::unique_ptr<FrameWriter> {
-        return std::make_unique<MeshSequence>(folder, run, "ply", MeshTexts{ply_text, ply_colliders_text});
+        return std::make_unique<FaceSequence>(folder, run, "ply", MeshTexts{ply_text, ply_colliders_text});
     }};
 
 }  // namespace drape

@@ -97,14 +97,14 @@ class Collection {
     std::string sets_;
 };
 
-class VtuSequence : public MeshSequence {
+class VtuSequence : public FaceSequence {
   public:
     VtuSequence(OutputFolder& folder, const WrittenRun& run)
-        : MeshSequence(folder, run, "vtu", {vtu_text, vtu_colliders_text}) {}
+        : FaceSequence(folder, run, "vtu", {vtu_text, vtu_colliders_text}) {}
 
     void add(const WrittenFrame& frame) override {
         const std::size_t before = files().size();
-        MeshSequence::add(frame);
+        FaceSequence::add(frame);
         const double time = frame.number / run().fps;
         const std::size_t cloths = run().cloths.size();
         for (std::size_t part = 0; part < cloths; ++part) cloths_.add(time, part, files()[before + part].name);
@@ -119,7 +119,7 @@ class VtuSequence : public MeshSequence {
     }
 
     std::vector<FileRecord> finish() override {
-        std::vector<FileRecord> all = MeshSequence::finish();
+        std::vector<FileRecord> all = FaceSequence::finish();
         all.push_back(cloths_.write(folder(), collection_name));
         if (!run().colliders.empty()) all.push_back(colliders_.write(folder(), colliders_collection_name));
         return all;

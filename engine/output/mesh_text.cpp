@@ -42,7 +42,7 @@ std::vector<float> joined_vertices(const std::vector<PlacedCollider>& colliders)
     return all;
 }
 
-void MeshSequence::add(const WrittenFrame& frame) {
+void FaceSequence::add(const WrittenFrame& frame) {
     // Cuts are told of as they are found, when frames before them may still wait for their pictures.
     std::erase_if(changes_, [&](Change& change) {
         const bool due = change.frame <= frame.number;
@@ -61,12 +61,12 @@ void MeshSequence::add(const WrittenFrame& frame) {
 }
 
 /// An earlier run's files go at the first write, so what stands still waits for the first frame, too.
-void MeshSequence::add_colliders(std::uint32_t frame) {
+void FaceSequence::add_colliders(std::uint32_t frame) {
     if (!std::exchange(still_written_, true)) write_colliders(false, still_colliders_name(extension_), frame);
     write_colliders(true, moving_colliders_name(frame, frame_digits(run_.end), extension_), frame);
 }
 
-void MeshSequence::write_colliders(bool moving, const std::string& name, std::uint32_t frame) {
+void FaceSequence::write_colliders(bool moving, const std::string& name, std::uint32_t frame) {
     std::vector<PlacedCollider> placed;
     for (const WrittenCollider& collider : run_.colliders)
         if (collider.moves == moving) placed.push_back({collider, placed_vertices(collider, frame / run_.fps)});
@@ -74,7 +74,7 @@ void MeshSequence::write_colliders(bool moving, const std::string& name, std::ui
     files_.push_back(write_file(folder_, name, bytes_of(texts_.colliders(placed, run_.up))));
 }
 
-void MeshSequence::set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
+void FaceSequence::set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
     changes_.push_back({frame, cloth, faces});
 }
 

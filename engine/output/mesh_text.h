@@ -35,9 +35,9 @@ std::string obj_text(const WrittenCloth& cloth, std::span<const float> xyzw,
 
 /// Writes mesh_0000.EXTENSION ..., or mesh_CLOTH_0000.EXTENSION for each of several cloths. Colliders that stand still
 /// are in colliders.EXTENSION, those that move in colliders_0000.EXTENSION ...
-class MeshSequence : public FrameWriter {
+class FaceSequence : public FrameWriter {
   public:
-    MeshSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshTexts texts)
+    FaceSequence(OutputFolder& folder, const WrittenRun& run, std::string extension, MeshTexts texts)
         : folder_(folder), run_(run), extension_(std::move(extension)), texts_(texts) {}
 
     void add(const WrittenFrame& frame) override;

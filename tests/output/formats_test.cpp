@@ -133,6 +133,7 @@ Mesh read_ply(const std::string& bytes) {
     Mesh mesh;
     const char* at = bytes.data() + bytes.find(end) + end.size();
     const auto take = [&at](auto& list, std::size_t count) {
+        if (count == 0) return;
         list.resize(list.size() + count);
         std::memcpy(list.data() + list.size() - count, at, count * sizeof list[0]);
         at += count * sizeof list[0];
