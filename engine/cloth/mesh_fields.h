@@ -25,6 +25,7 @@ class MeshFields {
     /// Returns them as texels (shared/collider_types.h), those of meshes that deform without samples: passes make them
     /// anew for every frame (shared/form_types.h).
     const std::vector<glsl::vec4>& texels() const { return *texels_; }
+    const std::shared_ptr<const std::vector<glsl::vec4>>& shared_texels() const { return texels_; }
     const glsl::vec4* data() const { return texels_ ? texels_->data() : nullptr; }
     /// Returns what those passes need for a frame between two times, s; null where no mesh deforms. What of it stays
     /// the same from the last frames that were asked for is not computed again.

@@ -73,37 +73,53 @@ std::string stage_text(const WrittenRun& run, const char* default_prim, const ch
 
 constexpr std::string_view colliders_name = "colliders.usda", scene_name = "scene.usda";
 
-/// A mesh that is placed by a matrix, of time samples where it moves.
+/// A mesh that is placed by a matrix, of time samples where it moves; its points are samples where it deforms.
 class UsdaCollider {
   public:
     UsdaCollider(const WrittenCollider& collider, double fps) : collider_(collider), fps_(fps) {}
 
     void add(std::uint32_t frame) {
-        if (collider_.moves) matrices_ += fmt::format("            {}: {},\n", frame, matrix_at(frame));
+        if (collider_.moves) matrices_ += sample_text(frame, matrix_at(frame));
+        if (!collider_.form) return;
+        const std::vector<float> points = points_at(frame);
+        points_ += sample_text(frame, points_text(points, 3));
+        extents_ += sample_text(frame, extent_text(points, 3));
     }
 
     std::string text(std::uint32_t first) const {
-        std::vector<float> points;
-        for (const Vec3& vertex : collider_.vertices)
-            for (const double coordinate : vertex) points.push_back(static_cast<float>(coordinate));
+        const std::vector<float> points = points_at(first);
         const auto linear = [this](std::size_t i) {
             const double srgb = collider_.color[i];
             return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
         };
         return fmt::format(
             "    def Mesh \"{}\"\n    {{\n        uniform bool doubleSided = 1\n"
-            "        uniform token subdivisionScheme = \"none\"\n        point3f[] points = {}\n"
-            "        float3[] extent = {}\n        int[] faceVertexCounts = {}\n        int[] faceVertexIndices = {}\n"
+            "        uniform token subdivisionScheme = \"none\"\n        point3f[] points{}\n"
+            "        float3[] extent{}\n        int[] faceVertexCounts = {}\n        int[] faceVertexIndices = {}\n"
             "        color3f[] primvars:displayColor = [({}, {}, {})]\n"
             "        matrix4d xformOp:transform{}\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n"
             "    }}\n",
-            collider_.name, points_text(points, 3), extent_text(points, 3), count_list(collider_.faces.size() / 3),
-            index_list(collider_.faces), static_cast<float>(linear(0)), static_cast<float>(linear(1)),
-            static_cast<float>(linear(2)),
-            collider_.moves ? fmt::format(".timeSamples = {{\n{}        }}", matrices_) : " = " + matrix_at(first));
+            collider_.name, value_text(points_text(points, 3), points_), value_text(extent_text(points, 3), extents_),
+            count_list(collider_.faces.size() / 3), index_list(collider_.faces), static_cast<float>(linear(0)),
+            static_cast<float>(linear(1)), static_cast<float>(linear(2)), value_text(matrix_at(first), matrices_));
     }
 
   private:
+    static std::string sample_text(std::uint32_t frame, const std::string& value) {
+        return fmt::format("            {}: {},\n", frame, value);
+    }
+    /// Returns the samples, if there are any, else the value.
+    static std::string value_text(const std::string& value, const std::string& samples) {
+        return samples.empty() ? " = " + value : fmt::format(".timeSamples = {{\n{}        }}", samples);
+    }
+
+    std::vector<float> points_at(std::uint32_t frame) const {
+        std::vector<float> points;
+        for (const Vec3& vertex : formed_vertices(collider_, frame / fps_))
+            for (const double coordinate : vertex) points.push_back(static_cast<float>(coordinate));
+        return points;
+    }
+
     /// Points are rows before the matrix.
     std::string matrix_at(std::uint32_t frame) const {
         const Placement3x4 rows = collider_.placement(frame / fps_);
@@ -119,7 +135,7 @@ class UsdaCollider {
 
     WrittenCollider collider_;
     double fps_;
-    std::string matrices_;
+    std::string matrices_, points_, extents_;
 };
 
 class UsdaFile {

@@ -36,10 +36,14 @@ void split_triangles(WrittenCollider& collider) {
 
 }  // namespace
 
+std::vector<Vec3> formed_vertices(const WrittenCollider& collider, double time) {
+    return collider.form ? collider.form(time) : collider.vertices;
+}
+
 std::vector<float> placed_vertices(const WrittenCollider& collider, double time) {
     const Placement3x4 placement = collider.placement(time);
     std::vector<float> xyz;
-    for (const Vec3& vertex : collider.vertices)
+    for (const Vec3& vertex : formed_vertices(collider, time))
         for (const auto& row : placement)
             xyz.push_back(static_cast<float>(row[3] + row[0] * vertex[0] + row[1] * vertex[1] + row[2] * vertex[2]));
     return xyz;

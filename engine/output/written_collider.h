@@ -1,4 +1,4 @@
-// The colliders of a run as files describe them: triangle meshes that move as rigid bodies.
+// The colliders of a run as files describe them: triangle meshes, placed at every time, some of which deform.
 #pragma once
 
 #include <array>
@@ -22,10 +22,15 @@ struct WrittenCollider {
     std::vector<Vec3> vertices;                          ///< m, in its own frame
     std::vector<std::uint32_t> faces;                    ///< three vertices per triangle
     bool flat = false;                                   ///< its faces are flat and large: a plane or a box
-    bool moves = false;                                  ///< its placement changes
+    bool moves = false;                                  ///< its placement or its form changes
     Vec3 color{0.5, 0.5, 0.5};                           ///< sRGB, 0..1
     std::function<Placement3x4(double time)> placement;  ///< at a time, s
+    /// Returns as many vertices as they are at a time, s, in its own frame, m; null where it keeps its form.
+    std::function<std::vector<Vec3>(double time)> form = {};
 };
+
+/// Returns the vertices at a time, s, in its own frame, m.
+std::vector<Vec3> formed_vertices(const WrittenCollider& collider, double time);
 
 /// Returns the vertices at a time, s: x y z each, m.
 std::vector<float> placed_vertices(const WrittenCollider& collider, double time);

@@ -42,7 +42,7 @@ void put_samples(const glsl::FormPush& push, const FormLists& lists, std::vector
 struct Last {
     std::mutex mutex;
     std::shared_ptr<const FormLists> forms;
-    const std::vector<glsl::vec4>* rest = nullptr;
+    std::shared_ptr<const std::vector<glsl::vec4>> rest;
     std::uint32_t substeps = 0;
     std::shared_ptr<const std::vector<glsl::vec4>> texels;
 };
@@ -53,14 +53,14 @@ std::shared_ptr<const std::vector<glsl::vec4>> twin_fields(const SimulationModel
     if (!inputs.forms) return nullptr;
     static Last last;
     const std::uint32_t substeps = model.scene.solver.substeps;
-    const std::vector<glsl::vec4>& rest = model.mesh_fields.texels();
+    const auto& rest = model.mesh_fields.shared_texels();
     const std::lock_guard lock(last.mutex);
-    if (last.forms == inputs.forms && last.rest == &rest && last.substeps == substeps) return last.texels;
-    auto texels = std::make_shared<std::vector<glsl::vec4>>(rest);
+    if (last.forms == inputs.forms && last.rest == rest && last.substeps == substeps) return last.texels;
+    auto texels = std::make_shared<std::vector<glsl::vec4>>(*rest);
     for (const glsl::FormPush& push : model.mesh_fields.form_pushes(substeps))
         put_samples(push, *inputs.forms, *texels);
     last.forms = inputs.forms;
-    last.rest = &rest;
+    last.rest = rest;
     last.substeps = substeps;
     last.texels = texels;
     return texels;

@@ -4,7 +4,9 @@
 
 #include <iterator>
 
+#include "mesh/mesh_shape.h"
 #include "picture/collider_surface.h"
+#include "scene/collider_pose.h"
 
 namespace drape {
 
@@ -24,6 +26,10 @@ Placement3x4 placement_at(const Collider& collider, double time) {
     return rows;
 }
 
+std::vector<Vec3> form_at(const Collider& collider, double time) {
+    return std::get<Mesh>(formed(collider, time).shape).shape->vertices();
+}
+
 std::vector<WrittenCollider> colliders_of(const SceneDescription& scene, int segments) {
     const PlaneSquare square = plane_square(scene);
     std::vector<WrittenCollider> written;
@@ -36,9 +42,10 @@ std::vector<WrittenCollider> colliders_of(const SceneDescription& scene, int seg
             .vertices = std::move(surface.vertices),
             .faces = {},
             .flat = std::holds_alternative<Plane>(collider.shape) || std::holds_alternative<Box>(collider.shape),
-            .moves = collider.path.moves(),
+            .moves = collider.moves(),
             .color = collider.color,
             .placement = [collider](double time) { return placement_at(collider, time); }};
+        if (collider.deforms()) one.form = [collider](double time) { return form_at(collider, time); };
         for (const auto& triangle : surface.triangles)
             one.faces.insert(one.faces.end(), triangle.begin(), triangle.end());
         written.push_back(std::move(one));

@@ -43,7 +43,7 @@ SHARED TriangleFoot triangle_foot_at(vec3 from_first, vec3 ab, vec3 ac, float se
     return TriangleFoot(second, third, ordered_dot(off, off));
 }
 
-/// By the region of the triangle's plane that the point lies over (Ericson, "Real-Time Collision Detection", 5.1.5).
+/// The region of the plane that the point lies over decides (Ericson, "Real-Time Collision Detection", 5.1.5).
 SHARED TriangleFoot triangle_foot(vec3 point, vec3 a, vec3 b, vec3 c) {
     vec3 ab = difference_of(b, a), ac = difference_of(c, a), ap = difference_of(point, a);
     float d1 = ordered_dot(ab, ap), d2 = ordered_dot(ac, ap);

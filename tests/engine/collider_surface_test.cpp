@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "base/vectors.h"
 #include "mesh/mesh_shape.h"
+#include "run/written_colliders.h"
 #include "scene/surface_distance.h"
+#include "support/meshes.h"
 
 namespace drape {
 namespace {
@@ -33,6 +36,28 @@ void expect_closed(const ColliderSurface& surface) {
         EXPECT_EQ(count, 1);
         EXPECT_TRUE(edges.contains({edge.second, edge.first}));
     }
+}
+
+/// A box that becomes twice as large within a second.
+TEST(WrittenColliders, HaveTheFormOfTheTime) {
+    const auto larger = [](const Vec3& vertex, std::size_t pose) { return times(1.0 + double(pose), vertex); };
+    SceneDescription scene;
+    scene.colliders = {{Sphere{}}, {test::deforming_mesh(test::box_mesh({0.1, 0.2, 0.3}), {0, 0, 0}, 2, 1, larger)}};
+    const std::vector<WrittenCollider> written = written_colliders(scene);
+    ASSERT_EQ(written.size(), 2u);
+    EXPECT_FALSE(written[0].moves || written[0].form);
+    EXPECT_TRUE(written[1].moves);
+    const std::vector<float> begin = placed_vertices(written[1], 0), half = placed_vertices(written[1], 0.5),
+                             end = placed_vertices(written[1], 1);
+    ASSERT_EQ(begin.size(), 24u);
+    const auto height = [](const std::vector<float>& at) {
+        float least = at[1], most = at[1];
+        for (std::size_t i = 1; i < at.size(); i += 3) least = std::min(least, at[i]), most = std::max(most, at[i]);
+        return most - least;
+    };
+    EXPECT_NEAR(height(begin), 0.4, 1e-6);
+    EXPECT_NEAR(height(half), 0.6, 1e-6);
+    EXPECT_NEAR(height(end), 0.8, 1e-6);
 }
 
 struct Body {

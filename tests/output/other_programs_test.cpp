@@ -136,6 +136,12 @@ std::vector<float> numbers(std::string text) {
     }
 }
 
+/// Returns the numbers on the line behind a key in a section.
+std::vector<float> list_after(const std::string& text, std::string_view section, const std::string& key) {
+    const std::size_t begin = text.find(key, text.find(section)) + key.size();
+    return numbers(text.substr(begin, text.find('\n', begin) - begin));
+}
+
 // The text is tested here; tools/check_exports opens it with a USD library.
 TEST(Usda, HasPointsAndFacesByFrame) {
     const TemporaryFolder temporary;
@@ -143,10 +149,6 @@ TEST(Usda, HasPointsAndFacesByFrame) {
     write("usda", folder);
     const std::string flag = read_text(temporary / "positions_flag.usda"),
                       rag = read_text(temporary / "positions_rag.usda");
-    const auto list_after = [](const std::string& text, std::string_view section, const std::string& key) {
-        const std::size_t begin = text.find(key, text.find(section)) + key.size();
-        return numbers(text.substr(begin, text.find('\n', begin) - begin));
-    };
     EXPECT_THAT(flag, testing::StartsWith("#usda 1.0\n(\n    defaultPrim = \"flag\"\n"));
     for (const char* line : {"    endTimeCode = 14 ", "    startTimeCode = 10\n", "    timeCodesPerSecond = 50\n",
                              "    upAxis = \"Y\"\n", "    metersPerUnit = 1\n", "def Mesh \"flag\"\n"})
@@ -184,6 +186,24 @@ TEST(Usda, CollidersAreMeshesThatMatricesMove) {
     for (const char* part : {"def \"flag\" (\n        references = @./positions_flag.usda@\n",
                              "def \"colliders\" (\n        references = @./colliders.usda@\n"})
         EXPECT_THAT(scene, testing::HasSubstr(part));
+}
+
+TEST(Usda, CollidersThatDeformHaveSamplesOfPoints) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    WrittenRun run = two_cloths();
+    run.colliders[1].form = [](double time) { return std::vector<Vec3>{{1, time, 0}, {0, 1, 0}, {0, 0, 1}}; };
+    write(*find_output_format("usda")->open(folder, run));
+    const std::string text = read_text(temporary / "colliders.usda");
+    const std::size_t deforming = text.find("\"collider_1_mesh\"");
+    const std::string still = text.substr(0, deforming), moved = text.substr(deforming);
+    EXPECT_THAT(still, testing::HasSubstr("point3f[] points = "));
+    for (const std::uint32_t frame : {10u, 14u}) {
+        const std::string sample = fmt::format("            {}: ", frame);
+        const float now = static_cast<float>(frame / 50.0);
+        EXPECT_EQ(list_after(moved, "points.timeSamples", sample), (std::vector<float>{1, now, 0, 0, 1, 0, 0, 0, 1}));
+        EXPECT_EQ(list_after(moved, "extent.timeSamples", sample), (std::vector<float>{0, 0, 0, 1, 1, 1}));
+    }
 }
 
 // A scene of several files has one that holds them.
