@@ -13,7 +13,9 @@ namespace drape {
 ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks)
     : name(cloth.name),
       grid(cloth),
-      starts_masked(!grid.whole() || keeps_masks),
+      stiffens(!cloth.stiffness_keys.empty()),
+      start_stiffness(static_cast<float>(stiffness_factor(scene, cloth, 0))),
+      starts_masked(!grid.whole() || stiffens || keeps_masks),
       placement(cloth.placement),
       is_given(!cloth.start.empty()),
       start_strain(drape::start_strain(cloth)),
@@ -62,7 +64,7 @@ void ClothGeometry::place(const Cloth& cloth) {
             position.push_back(texel(start[grid.particle(column, row)], free_weight.back()));
         }
     if (!starts_masked)
-        skipped.push_back({name + "/spring shares", "no holes, maps or cuts: the grid's extent gives every stiffness"});
+        skipped.push_back({name + "/spring shares", "no holes, maps, cuts or stiffness keys: the grid's extent gives every stiffness"});
 }
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {

@@ -20,6 +20,7 @@ using Bytes = std::vector<std::byte>;
 bool always(Context) { return true; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
+bool stiffens(Context c) { return c.cloth.stiffens; }
 bool adaptive(Context c) { return c.model.adaptive(); }
 bool gathers(Context c) { return c.cloth.scheme.spare_state; }
 bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; }
@@ -100,8 +101,10 @@ std::vector<FieldRow> motion_rows() {
         {Field::support, "support", image, vector, state, meets_on_colliders, particles},
         {Field::support_grip, "support grip", image, vector, state, meets_on_colliders, particles},
         {Field::normal, "normal", image, vector, frame, drawn, particles},
+        {Field::whole_spring_share, "whole spring shares", image, vector, constant, stiffens, particles,
+         [](Context c) { return bytes_of_list(c.topology.whole_spring_shares()); }},
         {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
-         [](Context c) { return bytes_of_list(c.topology.spring_shares()); }},
+         [](Context c) { return bytes_of_list(c.topology.spring_shares()); }, stiffens},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tear_limits, "tear limits", image, vector, constant,

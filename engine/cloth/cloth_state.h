@@ -41,6 +41,7 @@ enum class Field : std::uint8_t {
     support,                   ///< Support::plane of the surface that the particle lies on (contact_law.h)
     support_grip,              ///< Support::grip of the same
     normal,                    ///< unit normal of the front
+    whole_spring_share,        ///< spring shares before the factor of a stiffness that changes
     spring_share,              ///< share of the springs that a particle is the first of, by direction
     mass_share,                ///< mass over an inner particle's
     cells,                     ///< one texel per cell: bits 1 and 2 are set for the triangles that exist

@@ -39,6 +39,14 @@ void CutTopology::make_masked() {
     for (std::uint32_t row = 0; row < rows_; ++row)
         for (std::uint32_t column = 0; column < columns_; ++column)
             spring_shares_.push_back(cloth_->grid.spring_shares(column, row));
+    set_stiffness(cloth_->start_stiffness);
+}
+
+void CutTopology::set_stiffness(float factor) {
+    if (!cloth_->stiffens) return;
+    acting_shares_.clear();
+    for (const glsl::vec4& share : spring_shares_)
+        acting_shares_.push_back({share.x * factor, share.y * factor, share.z * factor, share.w * factor});
 }
 
 float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) const {
@@ -68,6 +76,7 @@ bool CutTopology::cut_spring(std::size_t particle, std::size_t direction, float 
     float& share = component(spring_shares_[particle], direction);
     if (share == 0) return false;
     share = 0;
+    if (cloth_->stiffens) component(acting_shares_[particle], direction) = 0;
     component(cuts_[particle], direction) = fraction;
     return true;
 }

@@ -47,7 +47,11 @@ class CutTopology {
     /// Returns whether spring shares and cells need images.
     bool masked() const { return !spring_shares_.empty(); }
     /// Returns the share of the stiffness per direction, by first particle; empty unless masked.
-    const std::vector<glsl::vec4>& spring_shares() const { return spring_shares_; }
+    const std::vector<glsl::vec4>& spring_shares() const { return cloth_->stiffens ? acting_shares_ : spring_shares_; }
+    /// Returns them as they are where the factor of a stiffness that changes is 1.
+    const std::vector<glsl::vec4>& whole_spring_shares() const { return spring_shares_; }
+    /// Takes the factor of a stiffness that changes.
+    void set_stiffness(float factor);
     /// Returns the cells that are there now.
     const Grid& grid() const { return grid_; }
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }
@@ -97,6 +101,7 @@ class CutTopology {
     Grid grid_;
     std::uint32_t columns_, rows_;
     std::vector<glsl::vec4> spring_shares_;
+    std::vector<glsl::vec4> acting_shares_;  ///< of a cloth that stiffens: with the factor of the frame
     std::vector<glsl::ParticleTethers> tethers_;
     std::vector<glsl::vec4> cuts_;  ///< per particle and direction: fraction, -1 = not cut
     std::vector<std::uint32_t> indices_;

@@ -142,6 +142,10 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
     inputs.wind.clear();
     inputs.colliders.clear();
+    inputs.stiffness.clear();
+    if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))
+        for (const Cloth& cloth : scene.cloths)
+            inputs.stiffness.push_back(static_cast<float>(stiffness_factor(scene, cloth, frame)));
     inputs.forms = model.mesh_fields.forms(frame_start, frame / scene.time.fps);
     // Distances go from those at the frame's begin to those at its end at constant speed, whatever poses lie between.
     std::vector<double> ways;

@@ -133,6 +133,8 @@ class ContactSteps {
 
 std::vector<Step> frame_steps(const SimulationModel& model) {
     std::vector<Step> steps;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) Substep(model, cloth, substep, steps).add();
         if (model.self_contact) ContactSteps(model, substep, steps).add();

@@ -54,17 +54,19 @@ std::string pins(const std::vector<Pin>& pins) {
 Difference cloth_difference(const std::string& at, const Cloth& first, const Cloth& other) {
     const auto grid = [](const Cloth& cloth) { return fmt::format("{} x {}", cloth.grid[0], cloth.grid[1]); };
     const auto text = [](bool is) { return std::string(is ? "true" : "false"); };
-    const auto there = [](const Cloth& cloth) { return std::string(cloth.self_collision ? "there" : "absent"); };
+    const auto there = [](bool is) { return std::string(is ? "there" : "absent"); };
     for (const Difference& found :
          {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
           differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
           map_difference(at + "/maps/stiffness", first.cell_stiffness, other.cell_stiffness),
           map_difference(at + "/maps/density", first.cell_density, other.cell_density),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
+          differ(at + "/stiffness_keys", there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty())),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),
                  spelling(contact_spellings, other.contact)),
-          differ(at + "/self_collision", there(first), there(other))})
+          differ(at + "/self_collision", there(first.self_collision.has_value()),
+                 there(other.self_collision.has_value()))})
         if (found) return found;
     return std::nullopt;
 }
@@ -114,6 +116,8 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     if (model.self_contact) return "contact between cloths works on all cloths of a scene at once";
     if (model.scene.comes_apart()) return "cuts and tears make the members' cloths differ";
     if (!model.mesh_fields.empty()) return "distances to meshes are known as far as each member's contact asks";
+    if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))
+        return "keys change the stiffness of each member's cloths at once";
     if (model.adaptive()) return "iterations end by the tolerance, in each member after a number of its own";
     return std::nullopt;
 }

@@ -27,6 +27,10 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     const double to = frame / scene.time.fps, from = to - 1 / scene.time.fps;
     if (model.windy && scene.wind.gust.amplitude != 0) return false;
     if (!is_steady(scene.wind.keys, from, to) || !is_steady(scene.gravity_keys, from, to)) return false;
+    const auto keeps_stiffness = [&](const Cloth& cloth) {
+        return frame == 0 || stiffness_factor(scene, cloth, frame) == stiffness_factor(scene, cloth, frame - 1);
+    };
+    if (!std::ranges::all_of(scene.cloths, keeps_stiffness)) return false;
     if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
     // The step after the last key still sees its motion in the velocities of pins and surfaces.
     const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };

@@ -45,6 +45,8 @@ struct StateRow {
     FieldExtent (*extent)(const Context&);
     /// Returns the bytes at the start or after a cut, at most as many as the extent holds. Null stands for zeros.
     std::vector<std::byte> (*start)(const Context&) = nullptr;
+    /// Returns whether a pass writes a constant anew in every frame. Null: none does.
+    bool (*rewritten)(const Context&) = nullptr;
 
     bool is_image() const { return view == FieldView::image || view == FieldView::image_and_buffer; }
     /// Returns the name in shaders, which has underscores.

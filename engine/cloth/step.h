@@ -19,6 +19,7 @@ namespace drape {
 inline constexpr std::size_t most_loop_rounds = 60000;
 
 enum class StepKind {
+    stiffness,
     release,
     wind,
     predict,

@@ -32,6 +32,9 @@ double bending_share(bool left_above, bool right_above, bool left_below, bool ri
 void check_supported(const SceneDescription& scene, const Cloth& cloth, const NetworkOptions& options) {
     if (cloth.stiffness.rigid)
         throw std::invalid_argument("cloth \"" + cloth.name + "\": rigid springs have no energy to refer to");
+    if (!cloth.stiffness_keys.empty())
+        throw std::invalid_argument("cloth \"" + cloth.name +
+                                    "\": the double-precision reference knows no stiffness that changes");
     if (!scene.colliders.empty() && !options.ignore_colliders)
         throw std::invalid_argument("scene \"" + scene.name + "\": the double-precision reference knows no colliders");
 }

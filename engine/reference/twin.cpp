@@ -120,6 +120,10 @@ void Twin::change_substep(const SimulationModel& run) {
 
 namespace {
 
+void run_stiffness(const TwinPlace& where) {
+    where.state.topology.set_stiffness(where.inputs.stiffness[where.step.cloth]);
+}
+
 void run_wind(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::size_t own = step.substep * std::size_t{scene.weighs ? 2u : 1u};
@@ -250,7 +254,7 @@ void run_advance(const TwinPlace& where) {
 }
 
 std::vector<TwinRow> common_rows() {
-    return {{StepKind::wind, run_wind},     {StepKind::force, run_force},   {StepKind::pin, run_pin},
+    return {{StepKind::stiffness, run_stiffness}, {StepKind::wind, run_wind},     {StepKind::force, run_force},   {StepKind::pin, run_pin},
             {StepKind::spring, run_spring}, {StepKind::tether, run_tether}, {StepKind::advance, run_advance}};
 }
 

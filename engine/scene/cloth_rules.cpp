@@ -278,6 +278,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     for (std::size_t i = 0; i < cloth.holes.size(); ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     if (members.fit({"stiffness", "tear"})) fits = check_torn_cloth(members, cloth) && fits;
+    if (members.fit({"stiffness", "stiffness_keys", "tear"})) fits = check_stiffness_keys(members, cloth) && fits;
     if (members.fit({"grid", "maps", "stiffness", "tear"})) fits = take_maps(members, cloth) && fits;
     if (fits && members.fit({"grid", "holes", "maps"}) && !leaves_a_cell(cloth))
         fits = members[members["holes"] ? "holes" : "maps"].fail(

@@ -62,6 +62,15 @@ const Object<VectorKey> gravity_key{"gravity_key",
                                         {"gravity", &VectorKey::value, vec3, "m/s^2.", "a gravity of 3 numbers"},
                                     }};
 
+const Object<FactorKey> stiffness_key{
+    "stiffness_key",
+    "One key of a stiffness that changes.",
+    {
+        {"t", &FactorKey::time, number(any_number), key_time_help, key_time_text},
+        {"factor", &FactorKey::factor, number({0.001, 1.0, false}), "Share of the cloth's stiffness.",
+         "a factor from 0.001 to 1"},
+    }};
+
 const Object<Wind> wind{
     "wind",
     "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
@@ -69,7 +78,7 @@ const Object<Wind> wind{
     "value at rest.",
     {
         {"velocity", &Wind::velocity, vec3, "m/s, steady wind. Ignored (with a warning) beside keys."},
-        {"keys", &Wind::keys, vector_keys(wind_key),
+        {"keys", &Wind::keys, keys_in_time<VectorKey>(wind_key),
          "Wind that changes: from key to key by a straight line, component by component; before "
          "the first and after the last key, that key holds. A substep has the wind at its middle."},
         {"gust", &Wind::gust, gust, "Extra wind along the velocity's direction, as a function of time."},
@@ -228,6 +237,9 @@ const Object<Cloth> cloth{
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
         {"stiffness", &Cloth::stiffness, rigid_or(stiffness),
          "Spring constants, or \"rigid\": stretch and shear inextensible."},
+        {"stiffness_keys", &Cloth::stiffness_keys, keys_in_time<FactorKey>(stiffness_key),
+         "Stretch, shear and bend become so much of what stiffness says; between, before and after its keys as a wind "
+         "does. A frame has the factor at its middle."},
         {"damping", &Cloth::damping, number(not_negative), "1/s: velocities decay as exp(-damping t)."},
         {"friction", &Cloth::friction, number(not_negative),
          "Coulomb coefficient of the cloth's side; a pair of surfaces uses the geometric mean."},
@@ -384,7 +396,7 @@ const Object<SceneDescription> scene{
          "Defaults that have a direction turn with it about x: what is y becomes z, what is z becomes -y."},
         {"gravity", &SceneDescription::gravity, turned(vec3),
          "m/s^2. Where z is up, the default is [0, 0, -9.81]. Ignored (with a warning) beside gravity_keys."},
-        {"gravity_keys", &SceneDescription::gravity_keys, vector_keys(gravity_key),
+        {"gravity_keys", &SceneDescription::gravity_keys, keys_in_time<VectorKey>(gravity_key),
          "Gravity that changes; between, before and after its keys as a wind does."},
         {"wind", &SceneDescription::wind, wind, "Wind; none by default."},
         {"cloths", &SceneDescription::cloths, list<Cloth>(cloth, cloth_count, 1, 1024),

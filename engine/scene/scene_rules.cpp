@@ -40,15 +40,18 @@ bool times_increase(const SceneNode& node, const std::vector<Key>& keys) {
 
 }  // namespace
 
-Value<std::vector<VectorKey>> vector_keys(const Value<VectorKey>& key) {
-    Value<std::vector<VectorKey>> keys = list(key, one_key, 1, most_keys);
+template <class Key>
+Value<std::vector<Key>> keys_in_time(const Value<Key>& key) {
+    Value<std::vector<Key>> keys = list(key, one_key, 1, most_keys);
     keys.write = nullptr;  // an empty list is no value: without keys nothing changes
-    keys.read = [read = keys.read](const SceneNode& node, std::vector<VectorKey>& field) {
+    keys.read = [read = keys.read](const SceneNode& node, std::vector<Key>& field) {
         const bool fits = read(node, field);
         return times_increase(node, field) && fits;
     };
     return keys;
 }
+template Value<std::vector<VectorKey>> keys_in_time(const Value<VectorKey>&);
+template Value<std::vector<FactorKey>> keys_in_time(const Value<FactorKey>&);
 
 Value<MotionPath> motion_path(const Value<MotionKey>& key) {
     const Value<std::vector<MotionKey>> keys = list(key, one_key, 1, most_keys);

@@ -12,8 +12,9 @@ Value<std::string> file_name();
 /// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
-/// The keys of a vector that changes, in the order of their times.
-Value<std::vector<VectorKey>> vector_keys(const Value<VectorKey>& key);
+/// The keys of what changes, a VectorKey's or a FactorKey's, in the order of their times.
+template <class Key>
+Value<std::vector<Key>> keys_in_time(const Value<Key>& key);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
 /// The value true means all defaults, false means nothing.
@@ -62,6 +63,8 @@ bool check_cloth(const Members& members, Cloth& cloth);
 bool check_tear(const Members& members, Tear& tear);
 /// Checks that a cloth that tears has springs that bear something.
 bool check_torn_cloth(const Members& members, const Cloth& cloth);
+/// Checks that what changes the stiffness goes with the rest of a cloth.
+bool check_stiffness_keys(const Members& members, const Cloth& cloth);
 /// Checks that no cloth tears by the error that the solver may make: one whose limit is below the stretch error is an
 /// error of the scene, one whose limit is below that of a single spring a warning.
 void check_tear_limits(const SceneNode& cloths, const SceneDescription& scene);

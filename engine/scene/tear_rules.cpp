@@ -34,6 +34,16 @@ bool check_tear(const Members& members, Tear&) {
         fmt::format("expected exactly one of strain and tension, got {}", strain ? "both" : "none"));
 }
 
+bool check_stiffness_keys(const Members& members, const Cloth& cloth) {
+    if (cloth.stiffness_keys.empty()) return true;
+    if (cloth.stiffness.rigid)
+        return members["stiffness_keys"].fail(
+            "expected springs whose stiffness can change, got stiffness \"rigid\"");
+    if (!cloth.tear || !cloth.tear->tension) return true;
+    return members["tear"].fail(
+        "expected a strain beside stiffness_keys, got a tension: it is known only where the stiffness stays");
+}
+
 bool check_torn_cloth(const Members& members, const Cloth& cloth) {
     if (!cloth.tear || (!cloth.stiffness.rigid && cloth.stiffness.stretch > 0)) return true;
     return members["tear"].fail(

@@ -13,18 +13,37 @@ Vec3 strongest(const std::vector<VectorKey>& keys, const Vec3& steady) {
     return std::ranges::max(keys, {}, [](const VectorKey& key) { return length(key.value); }).value;
 }
 
+/// Keys on both sides of a time, and its share of the way from one to the other; an end's key is on both sides.
+template <class Key>
+struct Around {
+    const Key &from, &to;
+    double share;
+};
+
+template <class Key>
+Around<Key> around(const std::vector<Key>& keys, double time) {
+    const auto later = std::ranges::upper_bound(keys, time, {}, &Key::time);
+    if (later == keys.begin()) return {keys.front(), keys.front(), 0};
+    const Key& from = later[-1];
+    if (later == keys.end()) return {from, from, 0};
+    return {from, *later, (time - from.time) / (later->time - from.time)};
+}
+
 }  // namespace
 
 Vec3 value_at(const std::vector<VectorKey>& keys, const Vec3& steady, double time) {
     if (keys.empty()) return steady;
-    const auto later = std::ranges::upper_bound(keys, time, {}, &VectorKey::time);
-    if (later == keys.begin()) return keys.front().value;
-    const VectorKey& from = later[-1];
-    if (later == keys.end()) return from.value;
-    const double share = (time - from.time) / (later->time - from.time);
+    const auto [from, to, share] = around(keys, time);
     Vec3 value;
-    for (std::size_t k = 0; k < 3; ++k) value[k] = from.value[k] + share * (later->value[k] - from.value[k]);
+    for (std::size_t k = 0; k < 3; ++k) value[k] = from.value[k] + share * (to.value[k] - from.value[k]);
     return value;
+}
+
+double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame) {
+    if (cloth.stiffness_keys.empty()) return 1;
+    const double middle = frame == 0 ? 0 : (frame - 0.5) / scene.time.fps;
+    const auto [from, to, share] = around(cloth.stiffness_keys, middle);
+    return from.factor + share * (to.factor - from.factor);
 }
 
 bool is_steady(const std::vector<VectorKey>& keys, double from, double to) {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cloth/tear.h"
+#include "scene/weather.h"
 #include "solver/cut_pass.h"
 #include "solver/readback_pass.h"
 #include "solver/tear_pass.h"
@@ -142,6 +143,8 @@ void FrameLoop::take_cuts(std::uint32_t slot, std::uint32_t frame) {
         const ClothModel& model = model_.cloths[cloth];
         const bool crossed = found(cut_count_name(model)), overloaded = frame > 0 && found(tear_count_name(model));
         if (!crossed && !overloaded) continue;
+        solver_.topologies()[cloth].set_stiffness(
+            static_cast<float>(stiffness_factor(model_.scene, model_.scene.cloths[cloth], frame)));
         Hit& hit = hits.emplace_back(Hit{cloth, {}, {}, solver_.cut_images(cloth)});
         if (crossed) hit.cut = read_findings(*pool_, model);
         if (overloaded) hit.loads = read_tear_loads(*pool_, model);

@@ -20,12 +20,16 @@ bool is_box_of(const IndexBox& box, const Cloth& cloth) {
            box.last[1] < cloth.grid[1];
 }
 
-bool are_keys(const std::vector<VectorKey>& keys) {
-    const auto is_number = [](const VectorKey& key) {
-        return std::isfinite(key.time) && std::ranges::all_of(key.value, [](double x) { return std::isfinite(x); });
-    };
-    const auto not_before = [](const VectorKey& a, const VectorKey& b) { return a.time >= b.time; };
-    return std::ranges::all_of(keys, is_number) && std::ranges::adjacent_find(keys, not_before) == keys.end();
+bool has_value(const VectorKey& key) {
+    return std::ranges::all_of(key.value, [](double x) { return std::isfinite(x); });
+}
+bool has_value(const FactorKey& key) { return key.factor >= 0.001 && key.factor <= 1; }
+
+template <class Key>
+bool are_keys(const std::vector<Key>& keys) {
+    const auto fits = [](const Key& key) { return std::isfinite(key.time) && has_value(key); };
+    const auto not_before = [](const Key& a, const Key& b) { return a.time >= b.time; };
+    return std::ranges::all_of(keys, fits) && std::ranges::adjacent_find(keys, not_before) == keys.end();
 }
 
 /// Returns whether there are no factors, or one for every cell, between the two.
@@ -77,6 +81,11 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
             expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
         expect(has_factors(cloth, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
                "a factor of at most 1, and not 0, for every cell");
+        expect(are_keys(cloth.stiffness_keys) &&
+                   (cloth.stiffness_keys.empty() ||
+                    (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension))),
+               at + "/stiffness_keys",
+               "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor torn by a tension");
         expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
                "a factor of at least 1 for every cell");
         expect(has_factors(cloth, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",

@@ -56,6 +56,7 @@ Lifetime lifetime_of(FieldLife life, bool inspection = false) {
 }
 
 Lifetime lifetime_of(const FieldRow& row, const FieldContext& about) {
+    if (row.rewritten && row.rewritten(about)) return Lifetime::persistent;
     return lifetime_of(row.life, about.needs.inspection);
 }
 Lifetime lifetime_of(const ContactRow& row, const ContactContext&) { return lifetime_of(row.life); }
@@ -130,6 +131,8 @@ void ClothSolver::declare(graph::Graph& graph, const FrameNeeds& needs, const Si
     if (model_.windy)
         inputs_.wind = graph.buffer<glsl::vec4>(
             "wind", model_.member_count * model_.most_substeps() * (model_.weighs ? 2 : 1), Lifetime::host_input);
+    if (std::ranges::any_of(model_.cloths, &ClothModel::stiffens))
+        inputs_.stiffness = graph.buffer<float>("stiffness", model_.cloths.size(), Lifetime::host_input);
     if (model_.compares_states())
         inputs_.attempt = graph.buffer<glsl::SubstepChange>(attempt_name, model_.cloths.size(), Lifetime::host_input);
     if (const std::size_t count = collider_record_count(model_))
@@ -438,6 +441,7 @@ void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t sl
 void ClothSolver::write_inputs(const graph::ResourcePool& pool, std::uint32_t slot, const FrameInputs& inputs,
                                std::uint32_t substeps) const {
     if (model_.windy) write_buffer(pool, slot, "wind", inputs.wind);
+    if (!inputs.stiffness.empty()) write_buffer(pool, slot, "stiffness", inputs.stiffness);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     if (inputs.forms) write_forms(pool, slot, *inputs.forms);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)

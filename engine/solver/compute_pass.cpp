@@ -39,6 +39,7 @@ graph::Handle& PassResources::find(std::string_view variable, bool written) {
     if (contact)
         if (const auto field = contact_field_called(name)) return (*contact)[*field];
     if (name == "wind") return inputs.wind;
+    if (name == "stiffness") return inputs.stiffness;
     if (name == "attempt") return inputs.attempt;
     if (name == "colliders" || name == "collider_texels") return inputs.colliders;
     if (name == "mesh_fields") return inputs.mesh_fields;

@@ -74,6 +74,7 @@ struct ContactHandles {
 /// The inputs of the whole scene.
 struct SceneInputs {
     graph::Handle wind;         ///< a vec4 per substep, m/s
+    graph::Handle stiffness;    ///< a factor per cloth; invalid where no stiffness changes
     graph::Handle colliders;    ///< ColliderRecords, sorted by kind
     graph::Handle mesh_fields;  ///< distances to meshes, as texels (shared/collider_types.h)
     /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.

@@ -92,6 +92,9 @@ graph::PushConstants release_push(Place p) {
                              0,
                              0};
 }
+graph::PushConstants stiffness_push(Place p) {
+    return glsl::StiffnessPush{p.cloth->model->grid.size(), static_cast<int>(p.step.cloth), 0};
+}
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
 graph::PushConstants spring_push(Place p) {
     glsl::SpringPush push = p.step.push<glsl::SpringPush>();
@@ -159,6 +162,7 @@ std::vector<StepRow> first_rows() {
         all_twist{{"masked", masked}, {"second_order", second_order}},
         twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}};
     return {
+        {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", none, over_particles}}, stiffness_push},
         {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
         {StepKind::wind, "wind", {{plain, "wind.comp", cut, over_wide_columns}}, wind_push},
         {StepKind::predict, "predict", {{plain, "predict.comp", predict, over_strips}}, nullptr, turns_if_asked},

@@ -137,6 +137,12 @@ struct GridPush {
     ivec2 grid;
 };
 
+struct StiffnessPush {
+    ivec2 grid;
+    int cloth;
+    int unused;
+};
+
 /// A particle that the scene pins with a motion or a release.
 struct PinnedParticle {
     vec4 rest;    // xyz: position at rest, metres; w: its inverse mass once released

@@ -13,6 +13,7 @@ const std::vector<StepBound>& step_bounds() {
     using enum StepKind;
     using enum Chain;
     static const std::vector<StepBound> bounds = {
+        {stiffness, 0, fixed, 0, "a product"},
         {release, 64, fixed, 0, "a root and a division for each of eight springs, added up"},
         {wind, 20, fixed, 0, "of each triangle a root, two divisions and a root, its normal used twice; shares added"},
         {predict, 4, fixed, 0, "the drag's share is one division from 1"},

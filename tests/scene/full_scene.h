@@ -31,7 +31,7 @@ inline constexpr const char* full_scene =
     R"json(/tests/scene/given/shape.obj",
      "velocities": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/velocities.npy"},
     {"name": "mapped", "grid": [5, 3], "placement": {"origin": [-9, 9, 9]},
-     "tear": {"strain": 0.4},
+     "tear": {"strain": 0.4}, "stiffness_keys": [{"t": 0.25, "factor": 1}, {"t": 1.5, "factor": 0.125}],
      "maps": {"holes": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png",
               "stiffness": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "stiffness_range": [0.5, 2],
               "density": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "density_range": [3, 0.5],

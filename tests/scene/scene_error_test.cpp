@@ -334,6 +334,18 @@ const Malformed world_cases[] = {
      {"2:19: /wind/keys/0/velocity: expected a velocity of 3 numbers, got nothing",
       "2:29: /wind/keys/1/t: expected a time in seconds, got nothing",
       "2:72: /gravity_keys: expected an array of at least 1 key, got []"}},
+    {"StiffnessKeysThatGoBackOrTooFar",
+     cloth("\"stiffness_keys\": [{\"t\": 1, \"factor\": 0}, {\"t\": 1, \"factor\": 1.5}]"),
+     {"2:39: /cloths/0/stiffness_keys/0/factor: expected a number in [0.001, 1], got 0",
+      "2:49: /cloths/0/stiffness_keys/1/t: expected a time after the previous key's 1, got 1",
+      "2:62: /cloths/0/stiffness_keys/1/factor: expected a number in [0.001, 1], got 1.5"}},
+    {"StiffnessKeysOfRigidCloth",
+     cloth("\"stiffness\": \"rigid\", \"stiffness_keys\": [{\"t\": 0, \"factor\": 0.5}]"),
+     {"2:41: /cloths/0/stiffness_keys: expected springs whose stiffness can change, got stiffness \"rigid\""}},
+    {"StiffnessKeysOfClothThatTearsByATension",
+     cloth("\"stiffness_keys\": [{\"t\": 0, \"factor\": 0.5}], \"tear\": {\"tension\": 9}"),
+     {"2:54: /cloths/0/tear: expected a strain beside stiffness_keys, got a tension: it is known only where the "
+      "stiffness stays"}},
     {"GravityThatGetsTooStrong",
      scene("\"gravity_keys\": [{\"t\": 0, \"gravity\": [0, 0, 0]}, {\"t\": 1, \"gravity\": [0, -3e38, 0]}]"),
      {"2:17: /gravity_keys: expected less gravity: cloth \"cloth\" would fall 4.97e+27 of its edge lengths in a "

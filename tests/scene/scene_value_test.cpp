@@ -29,6 +29,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.up, Up::z);
     EXPECT_EQ(scene.gravity, (Vec3{0.5, -1.62, 0.25}));
     EXPECT_EQ(scene.gravity_keys, (std::vector<VectorKey>{{0, {0.5, -1.5, 0.25}}, {1, {0, 0, -2}}}));
+    EXPECT_EQ(scene.cloths[3].stiffness_keys, (std::vector<FactorKey>{{0.25, 1}, {1.5, 0.125}}));
     const std::vector<VectorKey> wind_keys{{0, {1, 2, 2}}, {0.5, {0, 4, 3}}};
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4, wind_keys}));
     EXPECT_EQ(scene.overlap, Overlap::refuse);

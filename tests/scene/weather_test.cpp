@@ -46,6 +46,21 @@ TEST(Weather, TheStrongestIsThatOfAKey) {
     EXPECT_EQ(strongest_wind(scene.wind), (Vec3{4, 8, -4}));
 }
 
+TEST(Weather, AFrameHasTheStiffnessAtItsMiddle) {
+    SceneDescription scene;
+    scene.time.fps = 10;
+    Cloth cloth;
+    EXPECT_EQ(stiffness_factor(scene, cloth, 7), 1);
+    cloth.stiffness_keys = {{0.1, 1}, {0.3, 0.5}};
+    EXPECT_EQ(stiffness_factor(scene, cloth, 0), 1);
+    EXPECT_EQ(stiffness_factor(scene, cloth, 1), 1);  // until .1 s, its middle is at .05 s
+    EXPECT_NEAR(stiffness_factor(scene, cloth, 2), 0.875, 1e-12);
+    EXPECT_NEAR(stiffness_factor(scene, cloth, 3), 0.625, 1e-12);
+    EXPECT_EQ(stiffness_factor(scene, cloth, 4), 0.5);
+    cloth.stiffness_keys = {{-1, 0.25}};
+    EXPECT_EQ(stiffness_factor(scene, cloth, 0), 0.25);
+}
+
 TEST(Weather, GustsBlowAlongTheWindOfTheirTime) {
     const Wind wind{.gust = {2, 0.7, 5}, .keys = keys};
     for (const double time : {0.0, 2.5, 3.5}) {

@@ -49,6 +49,13 @@ struct VectorKey {
     bool operator==(const VectorKey&) const = default;
 };
 
+/// One key of a factor that changes.
+struct FactorKey {
+    double time = 0.0;  ///< s
+    double factor = 1.0;
+    bool operator==(const FactorKey&) const = default;
+};
+
 /// One key of a key-framed rigid motion. It turns about x, then y, then z; several turns are allowed, because paths
 /// interpolate the angles component by component.
 struct MotionKey {
@@ -174,6 +181,8 @@ struct Cloth {
     std::vector<Vec3> start;
     double areal_density = 0.2;  ///< kg/m^2; where cells differ, of one with the factor 1
     Stiffness stiffness;
+    /// Factors of all of the stiffness, at most 1, strictly increasing in time; empty: it stays (scene/weather.h).
+    std::vector<FactorKey> stiffness_keys;
     double damping = 0.0;      ///< 1/s
     double friction = 0.3;     ///< Coulomb coefficient of the cloth's own side
     double thickness = 0.005;  ///< m, distance kept from colliders
