@@ -120,6 +120,12 @@ for number, (cloth, path) in enumerate(zip(space["cloths"], archives, strict=Tru
     text += len(cloth["positions"]) + len(cloth["strain"])
     print(cloth["name"], wanted.shape[:3], "of", run["positions"].shape[:3], len(triangles), "triangles,", alive.sum(), "left")
 for collider in space["colliders"]:
+    if collider["kind"] == "meshes":
+        triangles = array(collider["triangles"], "<u4").reshape(-1, 3)
+        low, high = numpy.array(collider["low"]), numpy.array(collider["high"])
+        forms = low + array(collider["positions"], "<u2").reshape(-1, triangles.max() + 1, 3) / 65535 * (high - low)
+        print(len(triangles), "triangles,", len(forms), "forms, one corner at",
+              *(numpy.round(form.max(axis=0), 3).tolist() for form in forms[[0, -1]]))
     poses = array(collider["poses"], "<f4").reshape(-1, 12)
     print(collider["kind"], collider["size"], len(poses), "poses,", numpy.round(poses[-1, 9:], 3).tolist())
 print(text, "bytes of text")
@@ -151,6 +157,23 @@ TEST(Report, HasThePositionsOfTheRunForItsViewInThreeDimensions) {
 
     ASSERT_EQ(drape({"report", folder.out(), "--positions", "0"}).code, 0);
     EXPECT_THAT(read_text(folder / "out/report.html"), HasSubstr("Left out, as --positions 0 asks."));
+}
+
+TEST(Report, ShowsEveryFormOfAMeshThatDeforms) {
+    const SceneFolder folder(small_scene(9));
+    const std::string scenes = DRAPE_SOURCE_DIR "/tests/scene/";
+    const std::string mesh = R"(/colliders/meshes=[{"file": ")" + scenes +
+                             R"(box.obj", "position": [3, 1, 0], "frames": ")" + scenes +
+                             R"(box_pose_#.obj", "frames_per_second": 60}])";
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--set", mesh}).code, 0);
+    ASSERT_EQ(drape({"report", folder.out()}).code, 0);
+    const Outcome whole = read_space_of("out/report.html", {"out/positions.npz"}, folder);
+    EXPECT_EQ(whole.code, 0) << whole.err;
+    EXPECT_THAT(whole.out, HasSubstr("12 triangles, 9 forms, one corner at [0.3, 0.2, 0.5] [0.3, 0.4, 0.5]"));
+    // Half of so little has no room for 60 or all forms.
+    ASSERT_EQ(drape({"report", folder.out(), "--positions", "0.001"}).code, 0);
+    EXPECT_THAT(read_space_of("out/report.html", {"out/positions.npz"}, folder).out,
+                HasSubstr("12 triangles, 1 forms, one corner at [0.3, 0.2, 0.5] [0.3, 0.2, 0.5]"));
 }
 
 TEST(Report, ShowsWhatACutLeavesOfTwoCloths) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "base/output_error.h"
@@ -128,13 +129,20 @@ std::vector<std::uint32_t> kept_lines(std::uint32_t count, std::uint32_t stride)
 struct Kept {
     std::vector<std::size_t> frames;
     std::uint32_t stride = 1;
+    bool forms = true;  ///< those of every frame, of meshes that deform; else their first ones
 };
 
-/// A particle of a frame has 6 bytes of position and one of strain; base64 makes 4 of 3 bytes.
-Kept what_fits(const std::vector<ClothArrays>& cloths, double megabytes) {
-    const std::size_t all = cloths.front().frames.size();
-    for (Kept kept;; ++kept.stride) {
-        double bytes = 0;
+/// A particle of a frame has 6 bytes of position and one of strain, a vertex of a mesh that deforms 6; base64 makes 4
+/// of 3 bytes. Meshes may take half of them.
+Kept what_fits(const std::vector<ClothArrays>& cloths, const SceneDescription& scene, double megabytes) {
+    const std::size_t all = cloths.front().frames.size(), least = std::min(all, least_space_frames);
+    double form_bytes = 0;
+    for (const Collider& collider : scene.colliders)
+        if (collider.deforms())
+            form_bytes += static_cast<double>(std::get<Mesh>(collider.shape).shape->vertices().size()) * 6 * 4 / 3;
+    const bool forms = form_bytes * static_cast<double>(least) <= megabytes * 1e6 / 2;
+    for (Kept kept{.forms = forms};; ++kept.stride) {
+        double bytes = forms ? form_bytes : 0;
         bool is_least = true;
         for (const ClothArrays& cloth : cloths) {
             const std::size_t rows = kept_lines(cloth.rows, kept.stride).size();
@@ -144,7 +152,7 @@ Kept what_fits(const std::vector<ClothArrays>& cloths, double megabytes) {
         }
         const double fit = std::max(1.0, std::floor(megabytes * 1e6 / bytes));
         const auto frames = static_cast<std::size_t>(std::min(fit, static_cast<double>(most_space_frames)));
-        if (frames < std::min(all, least_space_frames) && !is_least) continue;
+        if (frames < least && !is_least) continue;
         kept.frames = evenly_chosen(all, frames);
         return kept;
     }
@@ -351,17 +359,22 @@ Json::Value poses_json(const std::vector<double>& times, bool moves, const PoseA
     return base64_of(values);
 }
 
-void put_mesh(Json::Value& json, const MeshShape& mesh) {
+/// `times`: those of which it has the forms.
+void put_mesh(Json::Value& json, const Collider& collider, std::span<const double> times) {
     std::vector<float> vertices;
-    for (const Vec3& vertex : mesh.vertices())
-        for (const double entry : vertex) vertices.push_back(static_cast<float>(entry));
+    for (const double time : times) {
+        const Collider now = formed(collider, time);
+        for (const Vec3& vertex : std::get<Mesh>(now.shape).shape->vertices())
+            for (const double entry : vertex) vertices.push_back(static_cast<float>(entry));
+    }
     std::vector<std::uint32_t> corners;
-    for (const Triangle& triangle : mesh.triangles()) corners.insert(corners.end(), triangle.begin(), triangle.end());
-    json["vertices"] = base64_of(vertices);
+    for (const Triangle& triangle : std::get<Mesh>(collider.shape).shape->triangles())
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    put_positions(json, vertices);
     json["triangles"] = base64_of(corners);
 }
 
-Json::Value collider_json(const Collider& collider, const std::vector<double>& times) {
+Json::Value collider_json(const Collider& collider, const std::vector<double>& times, bool forms) {
     const bool is_plane = std::holds_alternative<Plane>(collider.shape);
     const auto pose_at = [&](double time) {
         return is_plane ? plane_pose(collider, time) : collider_pose(collider, time);
@@ -371,7 +384,7 @@ Json::Value collider_json(const Collider& collider, const std::vector<double>& t
                                     {"color", json_of(collider.color)},
                                     {"poses", poses_json(times, collider.path.moves(), pose_at)}});
     if (std::holds_alternative<Mesh>(collider.shape))
-        put_mesh(json, *std::get<Mesh>(formed(collider, times.empty() ? 0 : times.front()).shape).shape);
+        put_mesh(json, collider, std::span(times).first(collider.deforms() && forms ? times.size() : 1));
     return json;
 }
 
@@ -395,7 +408,7 @@ Json::Value cutter_json(const Cutter& cutter, const std::vector<double>& times) 
 }
 
 Json::Value space_json(const std::vector<ClothArrays>& cloths, const SceneDescription& scene, double megabytes) {
-    const Kept kept = what_fits(cloths, megabytes);
+    const Kept kept = what_fits(cloths, scene, megabytes);
     Json::Value frames(Json::arrayValue), seconds(Json::arrayValue), list(Json::arrayValue);
     std::vector<double> times;
     for (const std::size_t frame : kept.frames) {
@@ -412,7 +425,8 @@ Json::Value space_json(const std::vector<ClothArrays>& cloths, const SceneDescri
          {"times", seconds},
          {"cloths", list},
          {"colors", json_array(viridis.colors, [](std::uint32_t color) { return Json::Value(color); })},
-         {"colliders", json_array(scene.colliders, [&](const Collider& one) { return collider_json(one, times); })},
+         {"colliders",
+          json_array(scene.colliders, [&](const Collider& one) { return collider_json(one, times, kept.forms); })},
          {"cutters", json_array(scene.cutters, [&](const Cutter& one) { return cutter_json(one, times); })},
          {"camera", json_object({{"position", json_of(camera.position)},
                                  {"target", json_of(camera.target)},

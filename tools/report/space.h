@@ -26,9 +26,9 @@ namespace drape::report {
 /// are
 ///   there (`alive`, a bit each, the lowest first);
 ///
-/// and lists of `colliders` (`kind` as the scene's list, `size` as shape_geometry gives it, `color`, `poses`; of
-/// a mesh `vertices`, float32 [vertex, 3], and `triangles`, uint32 [triangle, 3]) and of
-/// `cutters` (`corners` about the pose's centre, `active` from and to, s, `poses`). Poses are float32 [frame, 12], or
+/// and lists of `colliders` (`kind` as the scene's list, `size` as shape_geometry gives it, `color`, `poses`; of a mesh
+/// `positions`, of its vertices as of a cloth's particles, in every frame where it deforms and that fits, else one, and
+/// `triangles`, uint32 [triangle, 3]) and of `cutters` (`corners` about the pose's centre, `active` from and to, s, `poses`). Poses are float32 [frame, 12], or
 /// of one frame where nothing moves: rotation, row major, then centre. Arrays are little-endian, in base64.
 std::string space_view(const RunFolder& run, std::size_t id, double megabytes);
 

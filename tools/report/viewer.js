@@ -6,23 +6,30 @@ const spaces = [];
 // Values lie in the page as base64 of little-endian arrays.
 const decoded = (text, Type) => new Type(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
 
-// A cloth's positions in a frame, float32 [particle, 3], metres.
-class ClothData {
-  constructor(json) {
+// Positions in a frame, float32 [particle or vertex, 3], metres; one frame's are those of all.
+class Positions {
+  constructor(json, count) {
     Object.assign(this, json);
-    this.count = json.rows * json.columns;
+    this.count = count;
     this.positions = decoded(json.positions, Uint16Array);
+    this.changing = this.positions.length > 3 * count;
+  }
+  positionsAt(at) {
+    const xyz = new Float32Array(3 * this.count), first = this.changing ? at * xyz.length : 0;
+    for (let i = 0; i < xyz.length; ++i) {
+      const k = i % 3;
+      xyz[i] = this.low[k] + this.positions[first + i] / 65535 * (this.high[k] - this.low[k]);
+    }
+    return xyz;
+  }
+}
+
+class ClothData extends Positions {
+  constructor(json) {
+    super(json, json.rows * json.columns);
     this.strain = decoded(json.strain, Uint8Array);
     this.triangles = decoded(json.triangles, Uint32Array);
     this.changes = json.changes.map(change => ({frame: change.frame, alive: decoded(change.alive, Uint8Array)}));
-  }
-  positionsAt(at) {
-    const xyz = new Float32Array(3 * this.count);
-    for (let i = 0; i < xyz.length; ++i) {
-      const k = i % 3;
-      xyz[i] = this.low[k] + this.positions[at * xyz.length + i] / 65535 * (this.high[k] - this.low[k]);
-    }
-    return xyz;
   }
   changeAt(frame) {
     let found = 0;
@@ -102,8 +109,10 @@ const shapes = {
   capsules: capsuleGeometry,
   meshes: (size, json) => {
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(decoded(json.vertices, Float32Array), 3));
-    geometry.setIndex(new THREE.BufferAttribute(decoded(json.triangles, Uint32Array), 1));
+    const triangles = decoded(json.triangles, Uint32Array);
+    json.forms = new Positions(json, triangles.reduce((most, corner) => Math.max(most, corner + 1), 0));
+    geometry.setAttribute('position', new THREE.BufferAttribute(json.forms.positionsAt(0), 3));
+    geometry.setIndex(new THREE.BufferAttribute(triangles, 1));
     return geometry;
   },
 };
@@ -113,12 +122,18 @@ class Posed {
   constructor(mesh, json) {
     this.mesh = mesh;
     this.active = json.active;
+    this.forms = json.forms;
     this.poses = decoded(json.poses, Float32Array);
     mesh.matrixAutoUpdate = false;
   }
   show(at, time) {
     const p = this.poses.subarray(this.poses.length > 12 ? 12 * at : 0);
     this.mesh.matrix.set(p[0], p[1], p[2], p[9], p[3], p[4], p[5], p[10], p[6], p[7], p[8], p[11], 0, 0, 0, 1);
+    if (this.forms && this.forms.changing) {
+      const {position} = this.mesh.geometry.attributes;
+      position.array.set(this.forms.positionsAt(at));
+      position.needsUpdate = true;
+    }
     if (this.active) this.mesh.visible = this.active[0] <= time && time <= this.active[1];
   }
 }
