@@ -64,7 +64,8 @@ void ClothGeometry::place(const Cloth& cloth) {
             position.push_back(texel(start[grid.particle(column, row)], free_weight.back()));
         }
     if (!starts_masked)
-        skipped.push_back({name + "/spring shares", "no holes, maps, cuts or stiffness keys: the grid's extent gives every stiffness"});
+        skipped.push_back({name + "/spring shares",
+                           "no holes, maps, cuts or stiffness keys: the grid's extent gives every stiffness"});
 }
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {

@@ -35,9 +35,9 @@ struct ClothGeometry {
 
     std::string name;
     Grid grid;
-    bool stiffens;       ///< keys change its stiffness: a step gives its spring shares their factor in every frame
+    bool stiffens;          ///< keys change its stiffness: a step gives its spring shares their factor in every frame
     float start_stiffness;  ///< that factor in frame 0
-    bool starts_masked;  ///< holes, maps or such keys: spring shares and cells are images from the start
+    bool starts_masked;     ///< holes, maps or such keys: spring shares and cells are images from the start
     Placement placement;
     bool is_given;                          ///< the start is a given shape, not the placed one
     double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column

@@ -36,9 +36,9 @@ struct FrameInputs {
     /// Per member and substep the wind, m/s, and where gravity changes, behind it, what gravity is more than at the
     /// start, m/s^2; empty without either.
     std::vector<glsl::vec4> wind;
-    std::vector<float> stiffness;  ///< per cloth the factor of its stiffness; empty where none changes
-    std::vector<glsl::ColliderRecord> colliders;     ///< per substep, list by list, in the scene's order
-    std::shared_ptr<const FormLists> forms;          ///< of meshes that deform; null: there are none
+    std::vector<float> stiffness;                 ///< per cloth the factor of its stiffness; empty where none changes
+    std::vector<glsl::ColliderRecord> colliders;  ///< per substep, list by list, in the scene's order
+    std::shared_ptr<const FormLists> forms;       ///< of meshes that deform; null: there are none
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };
 

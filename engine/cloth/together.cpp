@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint64_t most_particles = 128 * 128;
 
 bool have_same_shape(const Cloth& one, const Cloth& other) {
-    return one.stiffness_keys.empty() && other.stiffness_keys.empty() && one.grid == other.grid && one.holes == other.holes && one.cell_stiffness == other.cell_stiffness &&
+    return one.stiffness_keys.empty() && other.stiffness_keys.empty() && one.grid == other.grid &&
+           one.holes == other.holes && one.cell_stiffness == other.cell_stiffness &&
            one.cell_density == other.cell_density && one.self_collision.has_value() == other.self_collision.has_value();
 }
 

@@ -306,6 +306,7 @@ static std::span<const JsonRule> manifest_rules() {
         {"/status", text},
         {"/failure", text},
         {"/scene/name", text},
+        {"/scene/path", text},
         {"/device", object},
         {"/frames/end", number},
         {"/frames/step", number},

@@ -254,8 +254,10 @@ void run_advance(const TwinPlace& where) {
 }
 
 std::vector<TwinRow> common_rows() {
-    return {{StepKind::stiffness, run_stiffness}, {StepKind::wind, run_wind},     {StepKind::force, run_force},   {StepKind::pin, run_pin},
-            {StepKind::spring, run_spring}, {StepKind::tether, run_tether}, {StepKind::advance, run_advance}};
+    return {{StepKind::stiffness, run_stiffness}, {StepKind::wind, run_wind},
+            {StepKind::force, run_force},         {StepKind::pin, run_pin},
+            {StepKind::spring, run_spring},       {StepKind::tether, run_tether},
+            {StepKind::advance, run_advance}};
 }
 
 using StepFunction = void (*)(const TwinPlace&);

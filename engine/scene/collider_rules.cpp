@@ -2,10 +2,30 @@
 
 #include "drape/error.h"
 #include "mesh/distance_field.h"
+#include "mesh/mesh_shape.h"
 #include "scene/field_plan.h"
 #include "scene/scene_rules.h"
+#include "scene/triangle_crossings.h"
 
 namespace drape {
+
+namespace {
+
+/// Warns of a body whose surface crosses itself. A shell may: what is near it is near it.
+void warn_of_crossings(const SceneNode& file, const MeshShape& shape) {
+    if (shape.shell() > 0) return;
+    TriangleCrossings::Mesh surface{shape.vertices(), {}};
+    for (const Triangle& triangle : shape.triangles())
+        surface.indices.insert(surface.indices.end(), triangle.begin(), triangle.end());
+    const std::size_t pairs = TriangleCrossings({surface}).count();
+    if (pairs > 0)
+        file.warn(
+            fmt::format("the surface crosses itself ({} pairs of triangles): parts that overlap are one body, and "
+                        "parts that are inside out count as outside; a surface whose parts were united has none",
+                        pairs));
+}
+
+}  // namespace
 
 bool check_capsule(const Members& members, Collider&) {
     if (!members["radius"] || !members["radii"]) return true;
@@ -30,6 +50,7 @@ bool check_mesh(const Members& members, Collider& collider) {
     } catch (const Error& error) {
         return (frames ? frames : members["file"]).fail(error.what());
     }
+    warn_of_crossings(members["file"], *mesh.shape);
     return true;
 }
 

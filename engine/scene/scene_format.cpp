@@ -62,14 +62,13 @@ const Object<VectorKey> gravity_key{"gravity_key",
                                         {"gravity", &VectorKey::value, vec3, "m/s^2.", "a gravity of 3 numbers"},
                                     }};
 
-const Object<FactorKey> stiffness_key{
-    "stiffness_key",
-    "One key of a stiffness that changes.",
-    {
-        {"t", &FactorKey::time, number(any_number), key_time_help, key_time_text},
-        {"factor", &FactorKey::factor, number({0.001, 1.0, false}), "Share of the cloth's stiffness.",
-         "a factor from 0.001 to 1"},
-    }};
+const Object<FactorKey> stiffness_key{"stiffness_key",
+                                      "One key of a stiffness that changes.",
+                                      {
+                                          {"t", &FactorKey::time, number(any_number), key_time_help, key_time_text},
+                                          {"factor", &FactorKey::factor, number({0.001, 1.0, false}),
+                                           "Share of the cloth's stiffness.", "a factor from 0.001 to 1"},
+                                      }};
 
 const Object<Wind> wind{
     "wind",

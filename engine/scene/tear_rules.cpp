@@ -37,8 +37,7 @@ bool check_tear(const Members& members, Tear&) {
 bool check_stiffness_keys(const Members& members, const Cloth& cloth) {
     if (cloth.stiffness_keys.empty()) return true;
     if (cloth.stiffness.rigid)
-        return members["stiffness_keys"].fail(
-            "expected springs whose stiffness can change, got stiffness \"rigid\"");
+        return members["stiffness_keys"].fail("expected springs whose stiffness can change, got stiffness \"rigid\"");
     if (!cloth.tear || !cloth.tear->tension) return true;
     return members["tear"].fail(
         "expected a strain beside stiffness_keys, got a tension: it is known only where the stiffness stays");

@@ -20,8 +20,8 @@ Vec3 gravity_at(const SceneDescription& scene, double time);
 bool gravity_changes(const SceneDescription& scene);
 /// Returns whether wind blows or gravity changes: the substeps then hear of both.
 bool has_weather(const SceneDescription& scene);
-/// Returns the factor of a cloth's stiffness in a frame: linear between two keys, at the frame's middle; in frame 0, which
-/// has no length, at its time.
+/// Returns the factor of a cloth's stiffness in a frame: linear between two keys, at the frame's middle; in frame 0,
+/// which has no length, at its time.
 double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame);
 /// Return gravity, m/s^2, and the wind's velocity without gusts, m/s, when they are largest.
 Vec3 strongest_gravity(const SceneDescription& scene);

@@ -81,11 +81,11 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
             expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
         expect(has_factors(cloth, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
                "a factor of at most 1, and not 0, for every cell");
-        expect(are_keys(cloth.stiffness_keys) &&
-                   (cloth.stiffness_keys.empty() ||
-                    (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension))),
-               at + "/stiffness_keys",
-               "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor torn by a tension");
+        expect(
+            are_keys(cloth.stiffness_keys) &&
+                (cloth.stiffness_keys.empty() || (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension))),
+            at + "/stiffness_keys",
+            "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor torn by a tension");
         expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
                "a factor of at least 1 for every cell");
         expect(has_factors(cloth, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",

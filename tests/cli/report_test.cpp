@@ -170,6 +170,19 @@ TEST(Report, ShowsEveryFormOfAMeshThatDeforms) {
     const Outcome whole = read_space_of("out/report.html", {"out/positions.npz"}, folder);
     EXPECT_EQ(whole.code, 0) << whole.err;
     EXPECT_THAT(whole.out, HasSubstr("12 triangles, 9 forms, one corner at [0.3, 0.2, 0.5] [0.3, 0.4, 0.5]"));
+    // The files are looked for beside the scene file, wherever the report is asked for.
+    std::filesystem::create_directory(folder / "files");
+    for (const char* name : {"box.obj", "box_pose_1.obj", "box_pose_2.obj"})
+        std::filesystem::copy_file(scenes + name, folder / "files" / name);
+    const std::string beside = R"(/colliders/meshes=[{"file": "files/box.obj", "position": [3, 1, 0]}])";
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "--set", beside}).code, 0);
+    ASSERT_EQ(drape({"report", folder.out()}).code, 0);
+    EXPECT_THAT(read_space_of("out/report.html", {"out/positions.npz"}, folder).out,
+                HasSubstr("12 triangles, 1 forms"));
+    std::filesystem::remove_all(folder / "files");
+    ASSERT_EQ(drape({"report", folder.out()}).code, 0);
+    EXPECT_THAT(read_text(folder / "out/report.html"), HasSubstr("the run's scene cannot be read here and now"));
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "--set", mesh}).code, 0);
     // Half of so little has no room for 60 or all forms.
     ASSERT_EQ(drape({"report", folder.out(), "--positions", "0.001"}).code, 0);
     EXPECT_THAT(read_space_of("out/report.html", {"out/positions.npz"}, folder).out,

@@ -1,5 +1,6 @@
 // A well-formed scene becomes the right values.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -178,6 +179,29 @@ TEST(SceneValues, FilesLieBesideTheScene) {
     EXPECT_EQ(again.scene.value().colliders, scene.colliders);
     EXPECT_EQ(again.files, std::vector<std::string>{"bodies/box.obj"});
     EXPECT_THROW(parse_scene(text), SceneFailure);
+}
+
+/// Writes two tetrahedra with edges of 1 m, the second one moved, along x most of all, and returns the scene that has
+/// them.
+std::string two_bodies(double apart, const std::string& more) {
+    const std::string path = ::testing::TempDir() + "two_bodies.obj";
+    std::ofstream file(path);
+    for (const double x : {0.0, apart})
+        file << fmt::format("v {0} {2} {3}\nv {1} {2} {3}\nv {0} {4} {3}\nv {0} {2} {5}\n", x, x + 1, 5 + x / 4, x / 3,
+                            6 + x / 4, 1 + x / 3);
+    for (const int first : {1, 5})
+        file << fmt::format("f {0} {2} {1}\nf {0} {1} {3}\nf {1} {2} {3}\nf {0} {3} {2}\n", first, first + 1, first + 2,
+                            first + 3);
+    return R"({"cloths": [{"grid": [4, 3]}], "colliders": {"meshes": [{"file": ")" + path + "\"" + more + "}]}}";
+}
+
+TEST(SceneValues, AMeshThatCrossesItselfIsWarnedOf) {
+    const SceneResult crossed = read_scene_text(two_bodies(0.25, ""), "s");
+    ASSERT_EQ(crossed.warnings.size(), 1u);
+    EXPECT_THAT(crossed.warnings[0].text(),
+                ::testing::StartsWith("s:1:66: /colliders/meshes/0/file: the surface crosses itself ("));
+    EXPECT_TRUE(read_scene_text(two_bodies(1.25, ""), "s").warnings.empty());
+    EXPECT_TRUE(read_scene_text(two_bodies(0.25, ", \"shell\": 0.1"), "s").warnings.empty());
 }
 
 TEST(SceneValues, EveryEdgeAndCorner) {

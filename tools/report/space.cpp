@@ -434,21 +434,19 @@ Json::Value space_json(const std::vector<ClothArrays>& cloths, const SceneDescri
                                  {"aspect", static_cast<double>(width) / height}})}});
 }
 
-/// The cloths, in the scene's order, and the scene that is in their archives.
-std::pair<std::vector<ClothArrays>, SceneDescription> read_space(const RunFolder& run, const std::string& archive) {
-    ClothArrays first = read_cloth_arrays(run.path / archive);
-    SceneResult result = read_scene_text(first.scene, archive);
-    if (!result.scene || result.scene->cloths.empty()) throw strange(run.path / archive, "its scene is none");
+/// The cloths, in the scene's order.
+std::vector<ClothArrays> read_cloths(const RunFolder& run, const std::string& archive, ClothArrays first,
+                                     const SceneDescription& scene) {
     std::vector<ClothArrays> cloths;
-    for (const Cloth& cloth : result.scene->cloths) {
-        const bool is_only = result.scene->cloths.size() == 1;
+    for (const Cloth& cloth : scene.cloths) {
+        const bool is_only = scene.cloths.size() == 1;
         const std::string name = cloth_file_name("positions", {.name = is_only ? "" : cloth.name}, "npz");
         cloths.push_back(name == archive ? std::exchange(first, {}) : read_cloth_arrays(run.path / name));
         const ClothArrays& arrays = cloths.back();
         if (cloth.grid[0] != arrays.columns || cloth.grid[1] != arrays.rows || cloths[0].frames != arrays.frames)
             throw strange(run.path / name, "its positions are of another grid or of other frames");
     }
-    return {std::move(cloths), std::move(*result.scene)};
+    return cloths;
 }
 
 /// JSON within a page that is XML, too: marks stand in strings alone, where they may be escaped.
@@ -469,7 +467,15 @@ std::string space_view(const RunFolder& run, std::size_t id, double megabytes) {
     if (archive == run.files.end())
         return "<p>This run has no positions.npz, which a page shows in 3-D; <code>--export npz</code> writes "
                "it.</p>\n";
-    const auto [cloths, scene] = read_space(run, *archive);
+    ClothArrays first = read_cloth_arrays(run.path / *archive);
+    // The scene in the archive names its files as the scene file did.
+    const SceneResult result =
+        read_scene_text(first.scene, *archive, {}, scene_folder(run.manifest["scene"]["path"].asString()));
+    if (!result.scene)
+        return fmt::format("<p>Not shown, since the run's scene cannot be read here and now: {}</p>\n",
+                           xml_text(result.errors.front().text()));
+    const SceneDescription& scene = *result.scene;
+    const std::vector<ClothArrays> cloths = read_cloths(run, *archive, std::move(first), scene);
     if (cloths.front().frames.empty()) return "<p>No frame was written.</p>\n";
     return fmt::format(
         "<div class=\"space\" data-space=\"space{0}\">\n<div class=\"stage\"></div>\n<p class=\"controls\">"

@@ -28,8 +28,9 @@ namespace drape::report {
 ///
 /// and lists of `colliders` (`kind` as the scene's list, `size` as shape_geometry gives it, `color`, `poses`; of a mesh
 /// `positions`, of its vertices as of a cloth's particles, in every frame where it deforms and that fits, else one, and
-/// `triangles`, uint32 [triangle, 3]) and of `cutters` (`corners` about the pose's centre, `active` from and to, s, `poses`). Poses are float32 [frame, 12], or
-/// of one frame where nothing moves: rotation, row major, then centre. Arrays are little-endian, in base64.
+/// `triangles`, uint32 [triangle, 3]) and of `cutters` (`corners` about the pose's centre, `active` from and to, s,
+/// `poses`). Poses are float32 [frame, 12], or of one frame where nothing moves: rotation, row major, then centre.
+/// Arrays are little-endian, in base64.
 std::string space_view(const RunFolder& run, std::size_t id, double megabytes);
 
 /// Returns the libraries and the script that show every such view of a page, ready to stand between CDATA marks. The
