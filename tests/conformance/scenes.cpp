@@ -134,6 +134,14 @@ SceneDescription crumpling(SolverMethod method, std::uint32_t substeps) {
     return scene;
 }
 
+/// Stiffness that keys change before the compared frames, whose steps are judged one by one.
+SceneDescription weakened_lines() {
+    SceneDescription scene = with(everything_in_lines(), SolverMethod::line, 4);
+    scene.cloths[0].stiffness.bend = 1e-4;
+    scene.cloths[0].stiffness_keys = {{0, 1}, {3 / scene.time.fps, 0.3}};
+    return scene;
+}
+
 /// Two that started through each other, and a third that touches one of them.
 SceneDescription parting(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = crossed(method, substeps);
@@ -162,6 +170,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"ExplicitBending", bent_explicitly(), 5},
         {"Line", with(everything_in_lines(), line, 4), 5},
         {"LineBendingWithHoles", bent_lines_with_holes(), 5},
+        {"LineWeakened", weakened_lines(), 5},
         {"LineToATolerance", lines_to_a_tolerance(), 5},
         {"LineSoftInCompression", soft_lines(), 5},
         {"LonePins", around_lone_pins(false), 5},

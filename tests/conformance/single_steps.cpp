@@ -33,6 +33,12 @@ Field twin_field(Field field) {
     return field;
 }
 
+/// Returns the twin's bytes of a field that passes write. Its topology has the spring shares.
+std::span<const std::byte> expected_of(const TwinCloth& twin, Field field) {
+    return field == Field::spring_share ? std::as_bytes(std::span(twin.topology.spring_shares()))
+                                        : twin.bytes(twin_field(field));
+}
+
 /// Returns whether the twin has what the device's passes hand each other in a field.
 bool mirrored(const FieldRow& row) { return row.is_image() && row.life != FieldLife::device; }
 /// Returns whether a field holds what the next step writes over, or what the last one left there.
@@ -231,7 +237,7 @@ std::vector<FieldPair> SingleSteps::fields(const Single& single) {
         for (const FieldRow& row : cloth_fields()) {
             const graph::Handle handle = single.after[cloth][row.field];
             if (!handle.valid() || !mirrored(row) || spare(row)) continue;
-            const std::span<const std::byte> expected = twin_.cloth(cloth).bytes(twin_field(row.field));
+            const std::span<const std::byte> expected = expected_of(twin_.cloth(cloth), row.field);
             const std::string name = names_of(single.graph, handle).front();
             if (!single.written.contains(name) || expected.empty()) continue;
             std::vector<std::byte>& bytes = held_[name];
