@@ -117,7 +117,7 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     if (model.scene.comes_apart()) return "cuts and tears make the members' cloths differ";
     if (!model.mesh_fields.empty()) return "distances to meshes are known as far as each member's contact asks";
     if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))
-        return "keys change the stiffness of each member's cloths at once";
+        return "a stiffness that changes is given to one cloth at a time";
     if (model.adaptive()) return "iterations end by the tolerance, in each member after a number of its own";
     return std::nullopt;
 }
