@@ -246,7 +246,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"gravity_key", {"t", "gravity"}},
         {"cloth", {"name", "fabric", "start", "velocities", "tear", "maps"}},
         {"tear", {"strain", "tension"}},
-        {"maps", {"holes", "stiffness", "density", "tear"}},
+        {"maps", {"holes", "stiffness", "density", "tear", "friction", "thickness"}},
         {"self_collision", {"thickness", "friction"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
         {"motion_key", {"t"}},
