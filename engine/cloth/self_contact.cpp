@@ -157,9 +157,9 @@ void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<Clo
             const float thickness =
                 layer_thickness(cloth, smaller_spacing(models[k]), thickness_factor(cloth, particle));
             const double friction = friction_of(cloth) * static_cast<double>(friction_factor(cloth, particle));
-            const int column = laid.first.x + i % laid.grid.x, row = laid.first.y + i / laid.grid.x;
-            skins[static_cast<std::size_t>(row * push.grid.x + column)] = {thickness,
-                                                                           static_cast<float>(std::sqrt(friction))};
+            const auto column = std::size_t(laid.first.x + i % laid.grid.x),
+                       row = std::size_t(laid.first.y + i / laid.grid.x);
+            skins[row * std::size_t(push.grid.x) + column] = {thickness, static_cast<float>(std::sqrt(friction))};
         }
     }
 }

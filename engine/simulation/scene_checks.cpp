@@ -34,6 +34,23 @@ bool has_factors(std::size_t count, const std::vector<float>& factors, float lea
                                std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
 }
 
+/// Says which maps of a cloth are none of its grid, or have values that no map has.
+template <class Expect>
+void check_maps(const Cloth& cloth, const std::string& at, const Expect& expect) {
+    const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1),
+                      particles = std::size_t{cloth.grid[0]} * cloth.grid[1];
+    expect(has_factors(cells, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
+           "a factor of at most 1, and not 0, for every cell");
+    expect(has_factors(cells, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
+           "a factor of at least 1 for every cell");
+    expect(has_factors(cells, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
+           "a factor above 0 for every cell");
+    expect(has_factors(particles, cloth.particle_friction, 0, 0x1p20f), at + "/particle_friction",
+           "a factor of at least 0 for every particle");
+    expect(has_factors(particles, cloth.particle_thickness, 0, 1), at + "/particle_thickness",
+           "a factor from 0 to 1 for every particle");
+}
+
 /// Returns whether what a cloth bears is a limit that its springs can come to.
 bool bears(const Cloth& cloth) {
     const Tear& tear = *cloth.tear;
@@ -72,21 +89,10 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i) {
         const Cloth& cloth = scene.cloths[i];
         const std::string at = fmt::format("/cloths/{}", i);
-        const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1),
-                          particles = std::size_t{cloth.grid[0]} * cloth.grid[1];
         if (!cloth.start.empty()) expect(start_fault(cloth).empty(), at + "/start", start_fault(cloth).c_str());
         if (!cloth.velocities.empty())
             expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
-        expect(has_factors(cells, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
-               "a factor of at most 1, and not 0, for every cell");
-        expect(has_factors(cells, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
-               "a factor of at least 1 for every cell");
-        expect(has_factors(cells, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
-               "a factor above 0 for every cell");
-        expect(has_factors(particles, cloth.particle_friction, 0, 0x1p20f), at + "/particle_friction",
-               "a factor of at least 0 for every particle");
-        expect(has_factors(particles, cloth.particle_thickness, 0, 1), at + "/particle_thickness",
-               "a factor from 0 to 1 for every particle");
+        check_maps(cloth, at, expect);
         expect(!cloth.tear || bears(cloth), at + "/tear",
                "either a strain or a tension above 0, of springs that are not rigid");
     }
