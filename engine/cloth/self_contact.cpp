@@ -152,13 +152,13 @@ void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<Clo
     for (std::size_t k = 0; k < cloths.size(); ++k) {
         const Cloth& cloth = scene.cloths[k];
         const glsl::SelfCloth& laid = cloths[k];
-        for (int i = 0; i < laid.grid.x * laid.grid.y; ++i) {
-            const auto particle = static_cast<std::size_t>(i);
+        const auto columns = std::size_t(laid.grid.x);
+        for (std::size_t particle = 0; particle < models[k].grid.particle_count(); ++particle) {
             const float thickness =
                 layer_thickness(cloth, smaller_spacing(models[k]), thickness_factor(cloth, particle));
             const double friction = friction_of(cloth) * static_cast<double>(friction_factor(cloth, particle));
-            const auto column = std::size_t(laid.first.x + i % laid.grid.x),
-                       row = std::size_t(laid.first.y + i / laid.grid.x);
+            const std::size_t column = std::size_t(laid.first.x) + particle % columns,
+                              row = std::size_t(laid.first.y) + particle / columns;
             skins[row * std::size_t(push.grid.x) + column] = {thickness, static_cast<float>(std::sqrt(friction))};
         }
     }
