@@ -102,6 +102,37 @@ TEST(FrictionTest, AMapHoldsOnePieceAndLetsTheOtherSlide) {
     }
 }
 
+/// The same two pieces lie on a sheet that is held instead of a plane.
+TEST(FrictionTest, AMapHoldsOnePieceOnAClothAndLetsTheOtherSlide) {
+    SceneDescription scene = incline(0.8);
+    scene.colliders.clear();
+    Cloth& upper = scene.cloths[0];
+    upper.grid = {5, 8};
+    upper.size = {0.4, 0.7};
+    upper.holes = {{{0, 3}, {4, 4}}};
+    upper.particle_friction.assign(40, 1);
+    std::fill_n(upper.particle_friction.begin() + 20, 20, 0.0f);
+    upper.self_collision = SelfCollision{0.01, {}};
+    Cloth lower = test::sheet(13, 9, 1.2, 0.8, 16).cloths[0];
+    lower.name = "lower";
+    lower.friction = 0.8;
+    lower.thickness = 0.01;
+    lower.placement = upper.placement;
+    lower.placement.origin = {-0.77 * std::cos(angle), -0.77 * std::sin(angle), -0.05};
+    lower.pins = {test::pin_box(0, 0, 12, 8)};
+    scene.cloths.push_back(lower);
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 15; ++frame) twin.run_frame(frame);
+    const double expected = 0.5 * 9.81 * std::sin(angle) * 0.25 * 0.25;
+    for (std::size_t particle = 0; particle < 40; ++particle) {
+        const glsl::vec4 start = model.cloths[0].position[particle], end = twin.cloth(0)[Field::position][particle];
+        const double slid =
+            -(double(end.x) - double(start.x)) * std::cos(angle) - (double(end.y) - double(start.y)) * std::sin(angle);
+        EXPECT_NEAR(slid, particle < 20 ? 0 : expected, 1e-3) << "particle " << particle;
+    }
+}
+
 TEST(FrictionTest, ASurfaceThatMovesCarriesTheClothAlong) {
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 16);
     scene.time.frame_count = 61;
