@@ -84,10 +84,10 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     // count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     bool far = false;
+    vec2 own = skin_of(placed(texel).y * push.grid.x + texel.x, vec2(reference_of_cloth().w, 0.0f));
     if (record.counts.x == 0u && around.here.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false,
-                                            false, far)
-                               .depth;
+        record.extents.z =
+            contact_with_all(push.collider_first, at, rest, own.x, 0.0f, 1.0e30f, false, false, far).depth;
 #endif
     return record;
 }

@@ -1,10 +1,12 @@
 #include "cloth/cloth_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/vectors.h"
 #include "cloth/tear.h"
 #include "cloth/texels.h"
+#include "scene/contact_shape.h"
 #include "scene/start.h"
 #include "scene/weather.h"
 
@@ -38,6 +40,10 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
     if (cloth.tear) tear_limits = drape::tear_limits(cloth, grid);
+    if (has_skin(cloth))
+        for (std::size_t particle = 0; particle < position.size(); ++particle)
+            skin.push_back({static_cast<float>(cloth.thickness * double{thickness_factor(cloth, particle)}),
+                            static_cast<float>(std::sqrt(cloth.friction * double{friction_factor(cloth, particle)}))});
 }
 
 Vec3 ClothGeometry::start_direction(std::uint32_t particle, std::size_t axis) const {

@@ -55,6 +55,8 @@ struct ClothGeometry {
     // These have one element per particle, row by row.
     std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
     std::vector<float> free_weight;    ///< w without pins
+    /// x: thickness kept from colliders, m; y: square root of the friction coefficient. Empty: they are the cloth's.
+    std::vector<glsl::vec2> skin;
     std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
     /// Its springs along row and column bear this much before they tear (cloth/tear.h); empty: everything.
     std::vector<glsl::vec4> tear_limits;

@@ -30,6 +30,7 @@ bool judged(Context c) { return c.needs.statistics || c.model.compares_states();
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
+bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.colliders.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -43,6 +44,7 @@ FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); 
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
+FieldExtent particle_list(Context c) { return {c.cloth.skin.size()}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
@@ -143,6 +145,8 @@ std::vector<FieldRow> other_rows() {
          [](Context c) { return bytes_of_list(c.topology.vertices()); }},
         {Field::tethers, "tethers", texel_buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
          [](Context c) { return bytes_of_list(c.topology.tethers()); }},
+        {Field::skin, "skin", buffer, layout_of<glsl::vec2>(), constant, has_own_skin, particle_list,
+         [](Context c) { return bytes_of_list(c.cloth.skin); }},
         {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
          pinned_list, [](Context c) { return bytes_of_list(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,

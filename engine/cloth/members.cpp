@@ -60,6 +60,8 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
           differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
           map_difference(at + "/maps/stiffness", first.cell_stiffness, other.cell_stiffness),
           map_difference(at + "/maps/density", first.cell_density, other.cell_density),
+          map_difference(at + "/maps/friction", first.particle_friction, other.particle_friction),
+          map_difference(at + "/maps/thickness", first.particle_thickness, other.particle_thickness),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness_keys", there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty())),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),

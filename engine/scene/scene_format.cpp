@@ -174,9 +174,12 @@ const Object<SelfCollision> self_collision{
 
 const Object<MapFiles> maps{
     "maps",
-    "Pictures by which the cloth's cells differ: grey .png of up to 16 bits, or .npy [rows, columns] of uint8, uint16 "
+    "Pictures by which the cloth's cells and particles differ: grey .png of up to 16 bits, or .npy [rows, columns] of "
+    "uint8, uint16 "
     "or bool, or of float32 or float64 from 0 to 1. The first row is row 0. A map with a pixel for each cell ((columns "
-    "- 1) x (rows - 1)) has their values; any other is sampled at their middles, bilinearly. Names are as of start.",
+    "- 1) x (rows - 1)) has their values; any other is sampled at their middles, bilinearly. Maps of friction and "
+    "thickness are of particles: one with a pixel for each has their values, any other spans the cloth. Names are as "
+    "of start.",
     {
         {"holes", &MapFiles::holes, without_default(text()), "File. Cells are missing where it is below one half."},
         {"stiffness", &MapFiles::stiffness, without_default(text()),
@@ -191,6 +194,15 @@ const Object<MapFiles> maps{
          "rips."},
         {"tear_range", &MapFiles::tear_range, two_numbers(map_factor),
          "Factors where the tear map is 0 and where it is 1; between, in proportion."},
+        {"friction", &MapFiles::friction, without_default(text()),
+         "File. It scales the friction of each particle, on colliders and between layers."},
+        {"friction_range", &MapFiles::friction_range, two_numbers(map_friction_factor),
+         "Factors where the friction map is 0 and where it is 1; between, in proportion."},
+        {"thickness", &MapFiles::thickness, without_default(text()),
+         "File. It scales the thickness of each particle, and of self_collision: there each keeps 0.1 to 1 times the "
+         "grid's smaller spacing, and two layers the mean of theirs where they are nearest."},
+        {"thickness_range", &MapFiles::thickness_range, two_numbers(map_factor),
+         "Factors where the thickness map is 0 and where it is 1; between, in proportion."},
     }};
 
 /// Reads the maps' names; the rule of the cloth, which knows the grid, reads the files.
@@ -261,7 +273,7 @@ const Object<Cloth> cloth{
          "What the cloth bears before it tears. Absent: whatever pulls at it. A tear is a line: it goes on from where "
          "the cloth is torn or cut, and only in a piece where none goes on a new one begins."},
         {"maps", Value<MapFiles>(maps).text, read_maps,
-         "Holes, stiffness, density and strength from pictures. Absent: none."},
+         "Holes, stiffness, density, strength, friction and thickness from pictures. Absent: none."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
         {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),

@@ -42,6 +42,8 @@ constexpr ConstantRow constant_rows[] = {
     {"halo", [](Place p) { return tile_of(p.step.kind, p.cloth->model->grid).halo; }},
     {"has_bend", [](Place p) { return p.step.push<glsl::ExplicitPush>().twist > 0 ? 1u : 0u; }},
     {"has_shear", [](Place p) { return p.step.push<glsl::ExplicitPush>().relative_stiffness.z > 0 ? 1u : 0u; }},
+    {"has_skin", [](Place p) { return (*p.cloth)[Field::skin].valid() ? 1u : 0u; }},
+    {"has_skins", [](Place p) { return (*p.contact)[ContactField::skins].valid() ? 1u : 0u; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
     {"steps", [](Place p) { return p.step.count; }},

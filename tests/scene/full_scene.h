@@ -35,7 +35,10 @@ inline constexpr const char* full_scene =
      "maps": {"holes": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png",
               "stiffness": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "stiffness_range": [0.5, 2],
               "density": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "density_range": [3, 0.5],
-              "tear": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "tear_range": [0.25, 1.5]}}],
+              "tear": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "tear_range": [0.25, 1.5],
+              "friction": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "friction_range": [0, 2],
+              "thickness": ")json" DRAPE_SOURCE_DIR
+    R"json(/tests/scene/given/cells.png", "thickness_range": [0.5, 2]}}],
   "colliders": {
     "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
                 "path": [{"t": 0}]}],

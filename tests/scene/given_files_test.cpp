@@ -238,6 +238,50 @@ TEST_F(GivenFiles, ASeamBearsItsShare) {
                 ElementsAre(HasSubstr("/tear_range/0: expected a number in [0.001, 1000], got 0")));
 }
 
+/// The fixture's cloth has 4 x 3 particles.
+TEST_F(GivenFiles, FrictionAndThicknessAreOfParticles) {
+    const std::vector<double> values{0, 0.5, 1, 1, 0, 0.5, 1, 1, 0, 0.5, 1, 0.25};
+    write_text(folder_ / "map.npy", npy_of("<f8", "3, 4", values));
+    write_text(folder_ / "map.png", grey_png(1, {0, 255}));
+    const Cloth cloth = read(R"("friction": 0.4, "thickness": 0.01, "self_collision": {"thickness": 0.05},
+                "maps": {"friction": "map.npy", "friction_range": [0, 3],
+                         "thickness": "map.npy", "thickness_range": [2, 0.5]})")
+                            .scene->cloths[0];
+    EXPECT_EQ(cloth.friction, 0.4);
+    EXPECT_EQ(cloth.particle_friction, (std::vector<float>{0, 1.5f, 3, 3, 0, 1.5f, 3, 3, 0, 1.5f, 3, 0.75f}));
+    EXPECT_EQ(cloth.thickness, 0.02) << "the thickest particle's";
+    EXPECT_EQ(cloth.self_collision->thickness, 0.1);
+    EXPECT_EQ(cloth.particle_thickness,
+              (std::vector<float>{1, 0.625f, 0.25f, 0.25f, 1, 0.625f, 0.25f, 0.25f, 1, 0.625f, 0.25f, 0.8125f}));
+    EXPECT_EQ(least_thickness(cloth), 0.005);
+    // A picture of another size spans the cloth: its upper half is dark.
+    EXPECT_EQ(read(R"("maps": {"friction": "map.png", "friction_range": [0, 1]})").scene->cloths[0].particle_friction,
+              (std::vector<float>{0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f, 1, 1, 1, 1}));
+}
+
+TEST_F(GivenFiles, WhatIsWrongWithAMapOfParticlesIsSaidWhereItIsNamed) {
+    EXPECT_THAT(errors(R"("maps": {"friction": "none.png", "thickness": "x.gif"})"),
+                ElementsAre(AllOf(HasSubstr(":2:22: /cloths/0/maps/friction: cannot read"), HasSubstr("No such file")),
+                            HasSubstr("/cloths/0/maps/thickness: cannot read")));
+    for (const double value : {-0.25, 1.25, std::nan("")}) {
+        write_text(folder_ / "map.npy", npy_of("<f8", "1, 1", std::vector<double>{value}));
+        for (const std::string key : {"friction", "thickness"})
+            EXPECT_THAT(errors(R"("maps": {")" + key + R"(": "map.npy"})"),
+                        ElementsAre(HasSubstr("/cloths/0/maps/" + key + ": ")))
+                << value;
+    }
+    write_text(folder_ / "map.npy", npy_of("<f8", "1, 1, 1", std::vector<double>{1}));
+    EXPECT_THAT(errors(R"("maps": {"thickness": "map.npy"})"),
+                ElementsAre(HasSubstr("/cloths/0/maps/thickness: cannot read")));
+    write_text(folder_ / "map.png", grey_png(1, {9}));
+    EXPECT_THAT(errors(R"("maps": {"thickness": "map.png", "thickness_range": [0, 1]})"),
+                ElementsAre(HasSubstr("/thickness_range/0: expected a number in [0.001, 1000], got 0")));
+    EXPECT_THAT(errors(R"("maps": {"friction": "map.png", "friction_range": [0, -1]})"),
+                ElementsAre(HasSubstr("/friction_range/1: expected a number in [0, 1000], got -1")));
+    EXPECT_THAT(errors(R"("self_collision": {"thickness": 9}, "maps": {"thickness": "map.png"})"),
+                ElementsAre(HasSubstr("/self_collision/thickness: expected")));
+}
+
 TEST_F(GivenFiles, WhatIsWrongWithAMapIsSaidWhereItIsNamed) {
     EXPECT_THAT(errors(R"("maps": {"holes": "none.png", "density": "x.gif"})"),
                 ElementsAre(AllOf(HasSubstr(":2:19: /cloths/0/maps/holes: cannot read"), HasSubstr("No such file")),

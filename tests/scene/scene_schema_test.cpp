@@ -248,7 +248,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"stiffness_key", {"t", "factor"}},
         {"cloth", {"name", "fabric", "start", "stiffness_keys", "velocities", "tear", "maps"}},
         {"tear", {"strain", "tension"}},
-        {"maps", {"holes", "stiffness", "density", "tear"}},
+        {"maps", {"holes", "stiffness", "density", "tear", "friction", "thickness"}},
         {"self_collision", {"thickness", "friction"}},
         {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
         {"motion_key", {"t"}},

@@ -196,6 +196,9 @@ struct Cloth {
     std::vector<float> cell_stiffness, cell_density;
     std::optional<Tear> tear;      ///< nothing: it holds whatever pulls at it
     std::vector<float> cell_tear;  ///< factors of what every cell bears, row by row; empty: 1
+    /// Factors of every particle, row by row; empty: 1. Those of the thickness, also of that between layers, are at
+    /// most 1, and the cloth's friction, also that between layers, is of a particle with the factor 1.
+    std::vector<float> particle_friction, particle_thickness;
     std::vector<Pin> pins;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;
