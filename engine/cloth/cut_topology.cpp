@@ -41,6 +41,16 @@ void CutTopology::make_masked() {
             spring_shares_.push_back(cloth_->grid.spring_shares(column, row));
 }
 
+std::vector<glsl::vec4> CutTopology::spring_texels() const {
+    const std::vector<glsl::vec4>& scales = cloth_->rest_scales;
+    if (scales.empty()) return spring_shares_;
+    std::vector<glsl::vec4> texels;
+    for (std::size_t first = 0; first < spring_shares_.size(); first += columns_)
+        for (const std::vector<glsl::vec4>* values : {&spring_shares_, &scales})
+            for (std::size_t i = first; i < first + columns_; ++i) texels.push_back((*values)[i]);
+    return texels;
+}
+
 float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) const {
     return component(cuts_[particle], direction);
 }

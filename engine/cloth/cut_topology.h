@@ -48,6 +48,9 @@ class CutTopology {
     bool masked() const { return !spring_shares_.empty(); }
     /// Returns the share of the stiffness per direction, by first particle; empty unless masked.
     const std::vector<glsl::vec4>& spring_shares() const { return spring_shares_; }
+    /// Returns the rows of the image of spring shares: the shares of a row and, where the cloth has a shape of rest,
+    /// the scales of its springs' lengths behind them (shaders/include/rest_length.h).
+    std::vector<glsl::vec4> spring_texels() const;
     /// Returns the cells that are there now.
     const Grid& grid() const { return grid_; }
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }

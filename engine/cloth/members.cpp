@@ -62,6 +62,7 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
           map_difference(at + "/maps/density", first.cell_density, other.cell_density),
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
+          differ(at + "/rest", spelling(rest_spellings, first.rest), spelling(rest_spellings, other.rest)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),
                  spelling(contact_spellings, other.contact)),
           differ(at + "/self_collision", there(first), there(other))})
