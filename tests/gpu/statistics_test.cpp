@@ -168,12 +168,18 @@ TEST(StatisticsTest, Holes) {
     EXPECT_LT(few.stretch.spring_count, many.stretch.spring_count);
 }
 
+std::vector<Vec3> wavy_start(const std::array<std::uint32_t, 2>& grid) {
+    std::vector<Vec3> start;
+    for (std::uint32_t row = 0; row < grid[1]; ++row)
+        for (std::uint32_t column = 0; column < grid[0]; ++column)
+            start.push_back({0.02 * column, 0.03 * std::sin(0.5 * column + 0.3 * row), 0.02 * row});
+    return start;
+}
+
 TEST(StatisticsTest, AClothThatRestsAsItStarts) {
     SceneDescription scene = soft_sheet(65, 33);
     Cloth& cloth = scene.cloths[0];
-    for (std::uint32_t row = 0; row < 33; ++row)
-        for (std::uint32_t column = 0; column < 65; ++column)
-            cloth.start.push_back({0.02 * column, 0.03 * std::sin(0.5 * column + 0.3 * row), 0.02 * row});
+    cloth.start = wavy_start(cloth.grid);
     cloth.placement = {};
     cloth.rest = Rest::start;
     const SimulationModel model(scene);
@@ -327,6 +333,9 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
     Cloth second = scene.cloths[0];
     second.name = "second";
     second.grid = {24, 41};
+    second.start = wavy_start(second.grid);
+    second.placement = {};
+    second.rest = Rest::start;
     scene.cloths.push_back(second);
     const SimulationModel model(scene);
     FrameLoopOptions options;
