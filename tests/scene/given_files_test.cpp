@@ -112,6 +112,8 @@ TEST_F(GivenFiles, AClothMayRestAsItStarts) {
     ASSERT_TRUE(result.scene) << result.errors[0].text();
     const Cloth& cloth = result.scene->cloths[0];
     EXPECT_EQ(start_strain(cloth), 0);
+    EXPECT_NEAR(covering_radius(cloth), (1 + contact_stretch) * covering_radius(flat.scene->cloths[0]), 1e-9)
+        << "it may stretch from there, too";
     const std::vector<std::array<double, 4>> ratios = rest_ratios(cloth);
     // Heights are 0, 0.2 and 0.4 m in turn: those of neighbours differ by 0.2 or 0.4, across a cell by 0.4 or 0.
     const double step = std::hypot(0.5, 0.2) / 0.5;
