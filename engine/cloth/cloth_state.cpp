@@ -40,6 +40,9 @@ bool tense(Context c) {
 bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent spring_list(Context c) {
+    return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
+}
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
@@ -105,8 +108,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::whole_spring_share, "whole spring shares", image, vector, constant, stiffens, particles,
          [](Context c) { return bytes_of_list(c.topology.whole_spring_shares()); }},
-        {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
-         [](Context c) { return bytes_of_list(c.topology.spring_shares()); }, stiffens},
+        {Field::spring_share, "spring shares", image, vector, constant, masked, spring_list,
+         [](Context c) { return bytes_of_list(c.topology.spring_texels()); }, stiffens},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tear_limits, "tear limits", image, vector, constant,

@@ -65,6 +65,7 @@ Difference cloth_difference(const std::string& at, const Cloth& first, const Clo
           differ(at + "/pins", pins(first.pins), pins(other.pins)),
           differ(at + "/stiffness_keys", there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty())),
           differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
+          differ(at + "/rest", spelling(rest_spellings, first.rest), spelling(rest_spellings, other.rest)),
           differ(at + "/contact", spelling(contact_spellings, first.contact),
                  spelling(contact_spellings, other.contact)),
           differ(at + "/self_collision", there(first.self_collision.has_value()),

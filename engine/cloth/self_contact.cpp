@@ -13,7 +13,16 @@ namespace {
 /// neighbours are a spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
-double smaller_spacing(const ClothModel& model) { return std::min(model.spacing[0], model.spacing[1]); }
+/// Returns the spacings, m, along columns and rows of a flat cloth whose particles are no farther apart than those of
+/// this one at rest.
+std::array<double, 2> least_spacing(const ClothModel& model) {
+    float least = 1;
+    for (const glsl::vec4& scales : model.rest_scales)
+        least = std::min({least, scales.x, scales.y, scales.z, scales.w});
+    return {least * model.spacing[0], least * model.spacing[1]};
+}
+
+double smaller_spacing(const ClothModel& model) { return std::ranges::min(least_spacing(model)); }
 
 int top_level(glsl::ivec2 grid) {
     int level = 0;
@@ -39,12 +48,12 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     const double spacing = smaller_spacing(model);
     glsl::SelfCloth constants{};
     constants.grid = model.grid.size();
-    constants.spacing = {static_cast<float>(model.spacing[0]), static_cast<float>(model.spacing[1])};
+    const auto [dx, dy] = least_spacing(model);
+    constants.spacing = {static_cast<float>(dx), static_cast<float>(dy)};
     constants.thickness = layer_thickness(cloth, spacing);
     constants.friction = static_cast<float>(friction_of(cloth));
     // In flat cloth the nearest primitives that share no corner are a cell's corner and the diagonal beside it.
-    constants.least_flat =
-        static_cast<float>(model.spacing[0] * model.spacing[1] / std::hypot(model.spacing[0], model.spacing[1]));
+    constants.least_flat = static_cast<float>(dx * dy / std::hypot(dx, dy));
     return constants;
 }
 

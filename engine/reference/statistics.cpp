@@ -90,10 +90,10 @@ class Reduction {
         const float share = state_.topology.masked() ? component(state_.topology.spring_shares()[at(first)], direction)
                                                      : border_share(first, offset, push_.grid);
         const float tension = direction < 2 ? state_.tension(static_cast<std::size_t>(direction))[at(first)] : 0.0f;
-        return add_spring_strain(record, xyz(state_[Field::position][at(first)]),
-                                 xyz(state_[Field::position][at(second)]), component(push_.rest_length, direction),
-                                 component(push_.half_stiffness, direction), share, push_.compression, tension,
-                                 direction >= 2);
+        return add_spring_strain(
+            record, xyz(state_[Field::position][at(first)]), xyz(state_[Field::position][at(second)]),
+            state_.topology.cloth().rest_length(component(push_.rest_length, direction), at(first), direction),
+            component(push_.half_stiffness, direction), share, push_.compression, tension, direction >= 2);
     }
 
     float penetration(vec3 position, float thickness) const {

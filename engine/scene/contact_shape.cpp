@@ -39,9 +39,10 @@ struct Grow {
 double covering_radius(const Cloth& cloth) {
     double squared = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        // A given shape may be as uneven as cloth is that moves.
-        const double scale = cloth.start.empty() ? cloth.placement.scale[axis]
-                                                 : start_ratios(cloth, axis).largest / (1 + contact_stretch);
+        // A given shape may be as uneven as cloth is that moves, unless that is at rest and may stretch, too.
+        const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
+        const double scale =
+            cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;
         const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, scale);
         squared += spacing * spacing;
     }

@@ -118,7 +118,8 @@ void take_thickness(const MapFiles& files, const std::vector<double>& values, Cl
 }  // namespace
 
 bool take_start(const Members& members, Cloth& cloth) {
-    const SceneNode node = members["start"];
+    const SceneNode node = members["start"], rest = members["rest"];
+    if (!node && cloth.rest == Rest::start) return rest.fail("expected a file start beside rest \"start\", got none");
     if (!node) return true;
     if (const SceneNode placement = members["placement"])
         return placement.fail("expected placement or start, got both");
@@ -136,7 +137,9 @@ bool take_start(const Members& members, Cloth& cloth) {
         cloth.start.clear();
         return node.fail(fmt::format("expected {} in '{}'", fault, name));
     }
-    warn_of_ratio(node, cloth);
+    if (const std::string fault = rest_fault(cloth); !fault.empty())
+        return node.fail(fmt::format("expected {} in '{}'", fault, name));
+    if (cloth.rest == Rest::flat) warn_of_ratio(node, cloth);
     return true;
 }
 

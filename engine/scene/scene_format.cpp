@@ -240,9 +240,14 @@ const Object<Cloth> cloth{
          "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "
          "[frames, rows, columns, 3], float32 or float64), .npz (its array positions, as drape writes it), .obj (a "
          "vertex for each particle, row by row) or .pc2; of several frames the last. At rest the cloth is still flat "
-         "and of its size. It starts without speed, or with velocity or velocities. A relative name is looked for "
+         "and of its size, unless rest says otherwise. It starts without speed, or with velocity or velocities. A "
+         "relative name is looked for "
          "beside the scene "
          "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
+        {"rest", &Cloth::rest, choice<Rest>(rest_spellings),
+         "Where the springs along threads and diagonals are at rest. flat: on the flat cloth of this size. start: in "
+         "the shape of the file start, whose springs are 1/4 to 4 times as long as the flat cloth's. Their constants, "
+         "mass and bending are those of flat cloth either way: what is curved at rest still bends to become flat."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},

@@ -26,7 +26,8 @@ graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState
         pushes_of(state, model, [&](const ClothModel& cloth) { return statistics_push(model, cloth); });
     graph::Handle own = own_constants(graph, state, module, "statistics", each);
     const auto value = [&](std::string_view name) {
-        return name == "has_skin" ? std::uint32_t{state[Field::skin].valid()} : scene_constant(model, name).value();
+        if (name == "has_skin") return std::uint32_t{state[Field::skin].valid()};
+        return name == "own_rest" ? std::uint32_t{state.own_rest()} : scene_constant(model, name).value();
     };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of columns",

@@ -46,6 +46,7 @@ constexpr ConstantRow constant_rows[] = {
     {"has_skins", [](Place p) { return (*p.contact)[ContactField::skins].valid() ? 1u : 0u; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
+    {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
     {"steps", [](Place p) { return p.step.count; }},
     {"strip_columns", [](Place p) { return p.device.strip_columns(); }},
     {"strip_length", [](Place p) { return p.device.strip_length(); }},

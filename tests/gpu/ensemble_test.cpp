@@ -257,6 +257,25 @@ TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
     }
 }
 
+/// Each has a shape of its own; one that is flat at rest cannot be among them.
+TEST_F(EnsembleTest, OfMembersThatRestAsTheyStart) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Cloth& cloth = members[k].cloths[0];
+        const double height = 0.03 + 0.02 * static_cast<double>(k);
+        for (std::uint32_t row = 0; row < 12; ++row)
+            for (std::uint32_t column = 0; column < 17; ++column)
+                cloth.start.push_back(
+                    {0.05 * column - 0.4, 0.9 - 0.04 * row + height * std::sin(0.6 * column), 0.04 * row});
+        cloth.placement = {};
+        cloth.rest = Rest::start;
+    }
+    expect_each_as_alone(members, 6, true);
+    members[1].cloths[0].rest = Rest::flat;
+    EXPECT_THAT([&] { Ensemble(members, {}, library_device()); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("/cloths/0/rest is flat, not start")));
+}
+
 TEST_F(EnsembleTest, TheNumberOfPassesIsThatOfOneMember) {
     const SceneDescription scene = scene_of();
     const Ensemble one(drawn(scene, 1, seed), {}, library_device()), many(drawn(scene, 40, seed), {}, library_device());

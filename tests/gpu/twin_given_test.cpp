@@ -77,10 +77,55 @@ TEST(TwinGivenTest, AVelocityOfEachParticle) {
     }
 }
 
+/// Each spring then has a length at rest of its own. The cloth is cut and hangs on pins that move and let go.
+TEST(TwinGivenTest, AFoldedStartThatIsAtRest) {
+    for (const SolverMethod method : methods)
+        for (const int iterations : {1, 2}) {
+            if (iterations == 2 && method == SolverMethod::explicit_steps) continue;
+            SceneDescription scene = test::everything();
+            scene.solver.method = method;
+            scene.solver.iterations = static_cast<std::uint32_t>(iterations);
+            scene.cloths[0].stiffness.bend = 1e-4;
+            fold(scene.cloths[0]);
+            scene.cloths[0].rest = Rest::start;
+            compare(scene);
+            if (method != SolverMethod::line) continue;
+            scene.colliders = {};  // of second order
+            compare(scene);
+        }
+}
+
+/// Grids that fill tiles and strips; their statistics, too.
+TEST(TwinGivenTest, AFoldedStartThatIsAtRestAlone) {
+    for (const SolverMethod method : methods)
+        for (const auto& grid : {std::pair{32u, 32u}, {49u, 25u}}) {
+            SceneDescription scene = test::thrown_sheet(grid, 8);
+            scene.solver.method = method;
+            fold(scene.cloths[0]);
+            scene.cloths[0].rest = Rest::start;
+            compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = method == SolverMethod::relax});
+        }
+}
+
+/// Those that rest as they start are simulated together, the flat one beside them.
+TEST(TwinGivenTest, ClothsTogetherOfWhichSomeRestAsTheyStart) {
+    SceneDescription scene = test::everything_in_lines();
+    for (const char* const name : {"second", "third"}) {
+        scene.cloths.push_back(scene.cloths[0]);
+        scene.cloths.back().name = name;
+        fold(scene.cloths.back());
+        scene.cloths.back().rest = Rest::start;
+    }
+    for (Vec3& at : scene.cloths[2].start) at[1] *= 1.5;
+    compare(scene);
+}
+
 TEST(TwinGivenTest, AFoldedStartThatMeetsItself) {
     SceneDescription scene = test::everything_in_lines();
     fold(scene.cloths[0]);
     scene.cloths[0].self_collision.emplace();
+    EXPECT_GT(compare(scene).most_pairs, 0u);
+    scene.cloths[0].rest = Rest::start;
     EXPECT_GT(compare(scene).most_pairs, 0u);
 }
 

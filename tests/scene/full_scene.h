@@ -27,7 +27,7 @@ inline constexpr const char* full_scene =
               {"box": [[1, 2], [3, 4]]}],
      "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
     {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"},
-    {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "start": ")json" DRAPE_SOURCE_DIR
+    {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "rest": "start", "start": ")json" DRAPE_SOURCE_DIR
     R"json(/tests/scene/given/shape.obj",
      "velocities": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/velocities.npy"},
     {"name": "mapped", "grid": [5, 3], "placement": {"origin": [-9, 9, 9]},
