@@ -129,6 +129,24 @@ TEST(TwinGivenTest, AFoldedStartThatMeetsItself) {
     EXPECT_GT(compare(scene).most_pairs, 0u);
 }
 
+/// All that gives springs and particles numbers of their own acts at once.
+TEST(TwinGivenTest, AllThatDiffersAtOnce) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        Cloth& cloth = scene.cloths[0];
+        cloth.stiffness.bend = 1e-4;
+        fold(cloth);
+        cloth.rest = Rest::start;
+        cloth.stiffness_keys = {{0.004, 1}, {0.02, 0.25}, {0.1, 0.5}};
+        vary(cloth);
+        vary_skin(cloth);
+        compare(scene);
+        cloth.self_collision.emplace();
+        compare(scene);
+    }
+}
+
 TEST(TwinGivenTest, StiffnessAndDensityByCell) {
     for (const SolverMethod method : methods) {
         SceneDescription scene = test::everything();
