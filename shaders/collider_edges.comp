@@ -9,6 +9,7 @@
 #include "shared/simulation_types.h"
 #include "include/collider_edges.h"
 #include "include/push.h"
+#include "include/skin.h"
 #include "include/triangles.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -147,7 +148,8 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
 #ifdef MESHES
     if (is_mesh) surface = mesh_displacement(collider, local);
 #endif
-    return Led(taken_displacement(led.moved, taken, surface, collider, push.contact.y),
+    float friction = skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy).y;
+    return Led(taken_displacement(led.moved, taken, surface, collider, friction),
                led.touched || ordered_dot(taken, taken) > 0.0f);
 }
 

@@ -46,6 +46,8 @@ layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D support;
 layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D support_grip;
 #endif
 
+vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }
+
 vec4 moved_at(ivec2 texel) {
 #ifdef AFTER_IMPULSES
     return imageLoad(displacements_in, push.laid + texel);
@@ -109,7 +111,7 @@ Strip strip_at(int column, int first, int count) {
         vec4 start = LOAD(position_in, texel), led = led_displacement(texel, moved_at(texel));
         vec3 now = moved_position(start.xyz, led.xyz);
         float way = length_of(led.xyz);
-        bool near = !leaves_out || led.w > 0.0f || near_early(now, way, push.contact.x);
+        bool near = !leaves_out || led.w > 0.0f || near_early(now, way, skin_at(texel).x);
         strip.way = way > strip.way ? way : strip.way;
         strip.rows |= near && start.w != 0.0f ? 1u << k : 0u;
         strip.lower = least_of_each(strip.lower, now);
@@ -151,6 +153,7 @@ uint late_rows(Strip strip) {
 bool meet_all(ivec2 texel, bool follows) {
     vec4 start = LOAD(position_in, texel), moved = moved_at(texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
+    vec2 own = skin_at(texel);
     bool touched = led.w > 0.0f, went_far = false;
     // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
@@ -158,8 +161,8 @@ bool meet_all(ivec2 texel, bool follows) {
     vec4 grip = vec4(0.0f);
     vec3 way_out = vec3(0.0f);
     do {
-        Contact contact = contact_with_all(push.first, start.xyz, displacement, push.contact.x, push.contact.y,
-                                           push.contact.w, true, follows, went_far);
+        Contact contact = contact_with_all(push.first, start.xyz, displacement, own.x, own.y, push.contact.w, true, follows,
+                                           went_far);
         displacement = contact.displacement;
         touched = touched || contact.depth > 0.0f;
         normal = contact.depth > 0.0f ? contact.normal : normal;

@@ -22,6 +22,7 @@ layout(constant_id = 2) const bool has_bend = false;
 #ifdef MASKED
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#include "include/rest_length.h"
 
 struct Particle {
     ivec2 texel;
@@ -62,9 +63,10 @@ vec3 gather(vec3 sum, Particle center, ivec4 around) {
     Particle there = particle_at(center.texel + around.xy);
     precise vec3 closing = there.displacement - center.displacement;
     float share = around.w == 1 ? share_of(center, around.xy, around.z) : share_of(there, around.xy, around.z);
+    float rest = length_at_rest(push.rest_length[around.z], around.w == 1 ? center.texel : there.texel, around.z);
     precise float relative_stiffness = push.relative_stiffness[around.z] * share;
-    return add_pull(sum, spring_pull(edge_between(center, there), closing, push.rest_length[around.z],
-                                     relative_stiffness, push.compression.x, push.strain_damping));
+    return add_pull(sum, spring_pull(edge_between(center, there), closing, rest, relative_stiffness,
+                                      push.compression.x, push.strain_damping));
 }
 
 vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, int channel, float factor) {

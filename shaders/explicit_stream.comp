@@ -38,6 +38,7 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 layout(constant_id = 0) const bool has_shear = false;
 layout(constant_id = 1) const int steps = stream_steps;
 layout(constant_id = 2) const bool advance = true;  // as in explicit.comp
+#include "include/rest_length.h"
 
 const int columns = stream_columns;
 
@@ -89,11 +90,15 @@ void store_row(RowBand band, int y, Particle row[columns]) {
     }
 }
 
+ivec2 nearest_inside(int x, int y) {
+    return ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0));
+}
+
 /// Returns the shares of the springs that a particle owns, by direction: half along the grid's borders and 0 for a
 /// spring that leaves the grid. Outside it they are 0 or 1, which reaches nothing that is stored.
 vec4 shares_of(int x, int y) {
 #ifdef MASKED
-    vec4 shares = LOAD(spring_shares, ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0)));
+    vec4 shares = LOAD(spring_shares, nearest_inside(x, y));
 #else
     vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
                        border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);
@@ -103,13 +108,14 @@ vec4 shares_of(int x, int y) {
                 x > 0 && x < push.grid.x && below ? shares.w : 0.0f);
 }
 
-/// Returns the pull of the spring between two particles on the first of them.
-vec3 pull_between(Particle from, Particle to, int channel, float share) {
+/// Returns the pull of the spring between two particles on the first of them. The spring's own first one is at `x`, `y`.
+vec3 pull_between(Particle from, Particle to, int x, int y, int channel, float share) {
     precise vec3 closing = to.displacement - from.displacement;
     precise float stiffness = push.relative_stiffness[channel] * share;
     precise vec3 edge = to.position - from.position;
     if (advance) edge = spring_edge(from.position, to.position, from.displacement, to.displacement);
-    return spring_pull(edge, closing, push.rest_length[channel], stiffness, push.compression.x, push.strain_damping);
+    float rest = length_at_rest(push.rest_length[channel], nearest_inside(x, y), channel);
+    return spring_pull(edge, closing, rest, stiffness, push.compression.x, push.strain_damping);
 }
 
 /// Returns the pull that another invocation computed. A lane at the strip's end, which is given its own number, gets 0.
@@ -130,16 +136,17 @@ void add_springs(inout Particle above[columns], inout Particle row[columns], int
     Particle before = shuffled(row[columns - 1], left), after = shuffled(row[0], right);
     vec3 down_left[columns], down[columns], down_right[columns], ahead[columns];
     for (int c = 0; c < columns; ++c) {
-        vec4 upper_shares = shares_of(first_column() + c, y - 1), shares = shares_of(first_column() + c, y);
+        int x = first_column() + c;
+        vec4 upper_shares = shares_of(x, y - 1), shares = shares_of(x, y);
         Particle next = after, last = before;
         if (c + 1 < columns) next = row[lesser(c + 1, columns - 1)];
         if (c > 0) last = row[greater(c - 1, 0)];
         if (has_shear) {
-            down_left[c] = pull_between(above[c], last, 3, upper_shares.w);
-            down_right[c] = pull_between(above[c], next, 2, upper_shares.z);
+            down_left[c] = pull_between(above[c], last, x, y - 1, 3, upper_shares.w);
+            down_right[c] = pull_between(above[c], next, x, y - 1, 2, upper_shares.z);
         }
-        down[c] = pull_between(above[c], row[c], 1, upper_shares.y);
-        ahead[c] = pull_between(row[c], next, 0, shares.x);
+        down[c] = pull_between(above[c], row[c], x, y - 1, 1, upper_shares.y);
+        ahead[c] = pull_between(row[c], next, x, y, 0, shares.x);
     }
     vec3 upper_left = vec3(0.0f), upper_right = vec3(0.0f);
     if (has_shear) {

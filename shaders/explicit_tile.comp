@@ -34,6 +34,7 @@ layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
 layout(constant_id = 0) const bool has_shear = false;
 layout(constant_id = 1) const int steps = 1;
 layout(constant_id = 2) const int halo = 1;
+#include "include/rest_length.h"
 #include "include/tile.h"
 
 struct Particle {
@@ -80,11 +81,11 @@ vec3 gather(vec3 sum, Particle center, ivec2 texel, int k) {
     vec4 first = shown[index];
     vec3 displacement = vec3(first.w, shown_too[index]);
     precise vec3 closing = displacement - center.displacement;
-    precise float stiffness =
-        push.relative_stiffness[around.z] * share_of(around.w == 1 ? texel : there, around.xy, around.z);
+    ivec2 owner = around.w == 1 ? texel : there;
+    precise float stiffness = push.relative_stiffness[around.z] * share_of(owner, around.xy, around.z);
     vec3 edge = spring_edge(center.position, first.xyz, center.displacement, displacement);
-    return add_pull(sum, spring_pull(edge, closing, push.rest_length[around.z], stiffness, push.compression.x,
-                                     push.strain_damping));
+    return add_pull(sum, spring_pull(edge, closing, length_at_rest(push.rest_length[around.z], owner, around.z), stiffness,
+                                     push.compression.x, push.strain_damping));
 }
 
 vec3 pull_on(Particle center, ivec2 texel) {

@@ -19,6 +19,8 @@ layout(set = 0, binding = 4, std430) writeonly buffer Residuals { ResidualRecord
 #ifdef MASKED
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#define LOAD(name, texel) imageLoad(name, texel)
+#include "include/rest_length.h"
 
 #define RECORD ResidualRecord
 #include "include/workgroup_reduction.h"
@@ -34,7 +36,7 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
 #endif
     vec3 edge = spring_edge(imageLoad(position, first).xyz, imageLoad(position, second).xyz,
                             imageLoad(displacement, first).xyz, imageLoad(displacement, second).xyz);
-    return add_residual(record, edge, rest_length, share, push.compression, tension);
+    return add_residual(record, edge, length_at_rest(rest_length, first, channel), share, push.compression, tension);
 }
 
 void main() {

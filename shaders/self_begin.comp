@@ -17,6 +17,7 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
 #include "include/self_cloths.h"
+#include "include/self_skins.h"
 layout(set = 0, binding = 4, std430) buffer Touching { SelfTouch touching[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, std430) readonly buffer FirstBorne { uint first_borne[]; };
@@ -38,15 +39,12 @@ vec3 force_borne(bool edges, uvec4 pair) {
 
 void begin(bool edges, int entry) {
     uvec4 pair = touching[entry].corners;
-    SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
-    float kept = self_pair_thickness(one, other, edges, self_texel(pair.x), self_texel(pair.y), self_texel(pair.z),
-                                     self_texel(pair.w));
     SelfGap gap = self_gap(edges, SelfCorners(where(pair.x), where(pair.y), where(pair.z), where(pair.w)));
-    float friction = self_pair_friction(one, other);
-    vec3 begun = self_begun(gap.normal, force_borne(edges, pair), friction, push.step);
+    vec2 own = pair_skin(edges, pair, gap.weights);  // thickness, friction
+    vec3 begun = self_begun(gap.normal, force_borne(edges, pair), own.y, push.step);
     touching[entry].weights = gap.weights;
-    touching[entry].normal = vec4(gap.normal, self_freedom(gap.distance, kept, push.step));
-    touching[entry].impulse = vec4(begun, friction);
+    touching[entry].normal = vec4(gap.normal, self_freedom(gap.distance, own.x, push.step));
+    touching[entry].impulse = vec4(begun, own.y);
     add_weight(pair.x, self_weight(gap.weights.x));
     add_weight(pair.y, self_weight(gap.weights.y));
     add_weight(pair.z, self_weight(gap.weights.z));

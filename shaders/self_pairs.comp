@@ -12,6 +12,7 @@
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
+#include "include/self_skins.h"
 layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Near { uint near[]; };
 layout(set = 0, binding = 6, std430) buffer Pairs { uvec4 pairs[]; };
@@ -31,9 +32,8 @@ vec3 moved(uint corner) {
 /// Returns whether a pair is listed, and whether it touches.
 bvec2 found(bool edges, uvec4 pair) {
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
-    float kept = self_pair_thickness(one, other, edges, self_texel(pair.x), self_texel(pair.y), self_texel(pair.z),
-                                     self_texel(pair.w));
     SelfGap gap = self_gap(edges, SelfCorners(where(pair.x), where(pair.y), where(pair.z), where(pair.w)));
+    float kept = pair_skin(edges, pair, gap.weights).x;
     SelfCorners motions = SelfCorners(moved(pair.x), moved(pair.y), moved(pair.z), moved(pair.w));
     bool listed = self_listed_pair(edges, gap, motions, kept, self_mean_thickness(one, other));
     return bvec2(listed, listed && self_touches(edges, gap, motions, kept));

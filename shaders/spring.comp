@@ -24,6 +24,8 @@ layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
 SCALAR_OUT(5, TensionOut, tension_out);
 #endif
 
+#include "include/rest_length.h"
+
 void main() {
     ivec2 pair = ivec2(gl_GlobalInvocationID.xy);
     if (pair.x >= push.pair_count.x || pair.y >= push.pair_count.y) return;
@@ -46,8 +48,8 @@ void main() {
 #endif
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
     precise float weight_sum = weight_first + weight_second;
-    SpringResult result = project_spring(edge, weight_sum, push.rest_length, share, push.compression,
-                                         push.compliance, tension);
+    SpringResult result = project_spring(edge, weight_sum, length_at_rest(push.rest_length, first, push.channel), share,
+                                         push.compression, push.compliance, tension);
     vec3 moved_first = moved_by(displacement_first.xyz, result.correction, -weight_first);
     vec3 moved_second = moved_by(displacement_second.xyz, result.correction, weight_second);
     STORE_VECTOR(displacement_out, first, vec4(moved_first, displacement_first.w));

@@ -40,6 +40,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 
 #include "include/iteration_tension.h"
+#include "include/rest_length.h"
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 
@@ -50,10 +51,14 @@ const int columns = spring_stream_columns, strip_width = spring_stream_width, st
 
 RowBand band;
 
+ivec2 nearest_inside(ivec2 owner) {
+    return ivec2(owner.x < push.grid.x ? owner.x : push.grid.x - 1,
+                 owner.y < 0 ? 0 : owner.y < push.grid.y ? owner.y : push.grid.y - 1);
+}
+
 float share_of(ivec2 owner, ivec2 offset, int channel) {
 #ifdef MASKED
-    return LOAD(spring_shares, ivec2(owner.x < push.grid.x ? owner.x : push.grid.x - 1,
-                                          owner.y < 0 ? 0 : owner.y < push.grid.y ? owner.y : push.grid.y - 1))[channel];
+    return LOAD(spring_shares, nearest_inside(owner))[channel];
 #else
     return border_share(owner, offset, push.grid);
 #endif
@@ -70,8 +75,8 @@ float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offs
     vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
     precise float weight_sum = first.weight + second.weight;
     SpringResult result =
-        project_spring(edge, weight_sum, push.rest_length[channel], share_of(owner, offset, channel), push.compression,
-                       push.compliance[channel], tension);
+        project_spring(edge, weight_sum, length_at_rest(push.rest_length[channel], nearest_inside(owner), channel),
+                       share_of(owner, offset, channel), push.compression, push.compliance[channel], tension);
     vec3 moved_first = moved_by(first.displacement, result.correction, -first.weight);
     vec3 moved_second = moved_by(second.displacement, result.correction, second.weight);
     bool is_there = exists(owner, offset);

@@ -23,6 +23,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
 #include "include/iteration_tension.h"
+#include "include/rest_length.h"
 
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 layout(constant_id = 1) const int halo = 0;
@@ -67,8 +68,9 @@ void relax(ivec2 offset, int channel, int parity) {
     vec3 edge = spring_edge(held_a.xyz, held_b.xyz, moved[a], moved[b]);
     precise float weight_sum = held_a.w + held_b.w;
     SpringResult result =
-        project_spring(edge, weight_sum, push.rest_length[channel], share_of(first, offset, channel), push.compression,
-                       push.compliance[channel], tension_of(first, channel));
+        project_spring(edge, weight_sum, length_at_rest(push.rest_length[channel], first, channel),
+                       share_of(first, offset, channel), push.compression, push.compliance[channel],
+                       tension_of(first, channel));
     moved[a] = moved_by(moved[a], result.correction, -held_a.w);
     moved[b] = moved_by(moved[b], result.correction, held_b.w);
     store_tension(channel, result.tension);

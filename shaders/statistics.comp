@@ -32,6 +32,7 @@ layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Each cloth has a texel. xyz: positions are summed relative to this point, m; w: thickness, m.
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
+#include "include/rest_length.h"
 
 vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, gl_WorkGroupID.z)); }
 
@@ -63,9 +64,11 @@ vec4 shares_of(ivec2 texel) {
                 texel.x > 0 && below ? shares.w : 0.0f);
 }
 
-StatisticsRecord with_spring(StatisticsRecord record, vec3 first, vec3 second, int direction, float share,
+/// `owner`: the spring's first particle, which is at `first`, m.
+StatisticsRecord with_spring(StatisticsRecord record, ivec2 owner, vec3 first, vec3 second, int direction, float share,
                              float tension) {
-    return add_spring_strain(record, first, second, push.rest_length[direction], push.half_stiffness[direction],
+    float rest = length_at_rest(push.rest_length[direction], owner, direction);
+    return add_spring_strain(record, first, second, rest, push.half_stiffness[direction],
                              record.counts.x == 0u ? share : 0.0f, push.compression, tension, direction >= 2);
 }
 
@@ -75,19 +78,19 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     StatisticsRecord record = particle_statistics(at, velocity, mass_share_of(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
     vec4 shares = shares_of(texel);
-    record = with_spring(record, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);
-    record = with_spring(record, at, around.below, 1, shares.y, LOAD(tension_column, texel).x);
-    record = with_spring(record, at, around.below_right, 2, shares.z, 0.0f);
-    record = with_spring(record, at, around.below_left, 3, shares.w, 0.0f);
+    record = with_spring(record, texel, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);
+    record = with_spring(record, texel, at, around.below, 1, shares.y, LOAD(tension_column, texel).x);
+    record = with_spring(record, texel, at, around.below_right, 2, shares.z, 0.0f);
+    record = with_spring(record, texel, at, around.below_left, 3, shares.w, 0.0f);
 #ifdef COLLIDING
     // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
     // count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     bool far = false;
+    vec2 own = skin_of(placed(texel).y * push.grid.x + texel.x, vec2(reference_of_cloth().w, 0.0f));
     if (record.counts.x == 0u && around.here.w != 0.0f)
-        record.extents.z = contact_with_all(push.collider_first, at, rest, reference_of_cloth().w, 0.0f, 1.0e30f, false,
-                                            false, far)
-                               .depth;
+        record.extents.z =
+            contact_with_all(push.collider_first, at, rest, own.x, 0.0f, 1.0e30f, false, false, far).depth;
 #endif
     return record;
 }

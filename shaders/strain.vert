@@ -31,6 +31,8 @@ float with_spring(float strain, ivec2 first, int direction) {
     if (!(rest_length > 0.0)) return strain;
 #ifdef MASKED
     if (!(imageLoad(spring_shares, first)[direction] > 0.0)) return strain;
+    bool own_rest = imageSize(spring_shares).x > int(push.grid.x);  // as in include/rest_length.h
+    if (own_rest) rest_length *= imageLoad(spring_shares, first + ivec2(push.grid.x, 0))[direction];
 #endif
     float current = distance(imageLoad(position, first).xyz, imageLoad(position, second).xyz);
     float found = (current - rest_length) / rest_length;

@@ -17,6 +17,8 @@ layout(set = 0, binding = 3, std430) buffer Count { uint count[]; };         // 
 #ifdef MASKED
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#define LOAD(name, texel) imageLoad(name, texel)
+#include "include/rest_length.h"
 
 vec3 particle(ivec2 at) { return imageLoad(position, at).xyz; }
 
@@ -32,8 +34,9 @@ vec4 shares_of(ivec2 at) {
 float cell_diagonals(ivec2 cell) {
     if (cell.x < 0 || cell.y < 0 || cell.x + 1 >= push.grid.x || cell.y + 1 >= push.grid.y) return 0.0f;
     ivec2 right = cell + ivec2(1, 0);
+    vec2 rest = vec2(length_at_rest(push.rest_diagonal, cell, 2), length_at_rest(push.rest_diagonal, right, 3));
     return diagonal_strains(particle(cell), particle(right), particle(cell + ivec2(0, 1)), particle(cell + ivec2(1, 1)),
-                            shares_of(cell).z, shares_of(right).w, push.rest_diagonal, push.compression);
+                            shares_of(cell).z, shares_of(right).w, rest, push.compression);
 }
 
 void main() {
@@ -51,14 +54,15 @@ void main() {
     float along_row = 0.0f, along_column = 0.0f;
     if (texel.x + 1 < push.grid.x && shares.x != 0.0f) {
         precise float diagonals = above + beside;
-        along_row = tear_load(balancing_strain(here, particle(texel + ivec2(1, 0)), push.rest_row, push.compression),
+        float rest = length_at_rest(push.rest_row, texel, 0);
+        along_row = tear_load(balancing_strain(here, particle(texel + ivec2(1, 0)), rest, push.compression),
                               diagonals, limits.z, limits.x);
     }
     if (texel.y + 1 < push.grid.y && shares.y != 0.0f) {
         precise float diagonals = left + beside;
-        along_column =
-            tear_load(balancing_strain(here, particle(texel + ivec2(0, 1)), push.rest_column, push.compression),
-                      diagonals, limits.w, limits.y);
+        float rest = length_at_rest(push.rest_column, texel, 1);
+        along_column = tear_load(balancing_strain(here, particle(texel + ivec2(0, 1)), rest, push.compression),
+                                 diagonals, limits.w, limits.y);
     }
     imageStore(tear_loads, texel, vec4(along_row, along_column, 0.0f, 0.0f));
     uint overloaded = (along_row > 1.0f ? 1u : 0u) + (along_column > 1.0f ? 1u : 0u);

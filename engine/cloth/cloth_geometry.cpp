@@ -1,10 +1,12 @@
 #include "cloth/cloth_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/vectors.h"
 #include "cloth/tear.h"
 #include "cloth/texels.h"
+#include "scene/contact_shape.h"
 #include "scene/start.h"
 #include "scene/weather.h"
 
@@ -15,7 +17,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       grid(cloth),
       stiffens(!cloth.stiffness_keys.empty()),
       start_stiffness(static_cast<float>(stiffness_factor(scene, cloth, 0))),
-      starts_masked(!grid.whole() || stiffens || keeps_masks),
+      starts_masked(!grid.whole() || stiffens || keeps_masks || cloth.rest == Rest::start),
       placement(cloth.placement),
       is_given(!cloth.start.empty()),
       start_strain(drape::start_strain(cloth)),
@@ -34,10 +36,18 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
     place(cloth);
+    if (cloth.rest == Rest::start)
+        for (const std::array<double, 4>& ratio : rest_ratios(cloth))
+            rest_scales.push_back({static_cast<float>(ratio[0]), static_cast<float>(ratio[1]),
+                                   static_cast<float>(ratio[2]), static_cast<float>(ratio[3])});
     hold_pins(cloth.pins);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
     if (cloth.tear) tear_limits = drape::tear_limits(cloth, grid);
+    if (has_skin(cloth))
+        for (std::size_t particle = 0; particle < position.size(); ++particle)
+            skin.push_back({static_cast<float>(cloth.thickness * double{thickness_factor(cloth, particle)}),
+                            static_cast<float>(std::sqrt(cloth.friction * double{friction_factor(cloth, particle)}))});
 }
 
 Vec3 ClothGeometry::start_direction(std::uint32_t particle, std::size_t axis) const {
@@ -52,8 +62,14 @@ Vec3 ClothGeometry::start_direction(std::uint32_t particle, std::size_t axis) co
     return size > 0 ? times(1 / size, way) : placed;
 }
 
+float ClothGeometry::rest_length(float flat, std::size_t particle, std::size_t direction) const {
+    return rest_scales.empty() ? flat : flat * component(rest_scales[particle], direction);
+}
+
 float ClothGeometry::reach() const {
-    return static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
+    float largest = 1;
+    for (const glsl::vec4& scales : rest_scales) largest = std::max({largest, scales.x, scales.y});
+    return largest * static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
 }
 
 void ClothGeometry::place(const Cloth& cloth) {
@@ -70,7 +86,7 @@ void ClothGeometry::place(const Cloth& cloth) {
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {
     if (cloth.pins.empty()) return skipped.push_back({name + "/tethers", "no pins to hold on to"});
-    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, strongest_gravity(scene)));
+    tethers = find_tethers(grid, spacing, cloth.pins, tether_give(cloth, strongest_gravity(scene)), rest_scales);
     if (scene.comes_apart())
         skipped.push_back(
             {name + "/tethers after a cut", "what was cut off hangs on nothing: the first cut ends them"});

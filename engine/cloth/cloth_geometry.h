@@ -37,7 +37,7 @@ struct ClothGeometry {
     Grid grid;
     bool stiffens;          ///< keys change its stiffness: a step gives its spring shares their factor in every frame
     float start_stiffness;  ///< that factor in frame 0
-    bool starts_masked;     ///< holes, maps or such keys: spring shares and cells are images from the start
+    bool starts_masked;     ///< holes, maps, a rest shape or such keys: spring shares are images from the start
     Placement placement;
     bool is_given;                          ///< the start is a given shape, not the placed one
     double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column
@@ -55,6 +55,10 @@ struct ClothGeometry {
     // These have one element per particle, row by row.
     std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
     std::vector<float> free_weight;    ///< w without pins
+    /// x: thickness kept from colliders, m; y: square root of the friction coefficient. Empty: they are the cloth's.
+    std::vector<glsl::vec2> skin;
+    /// Lengths of the springs that a particle owns at rest over those of flat cloth, by direction; empty: 1.
+    std::vector<glsl::vec4> rest_scales;
     std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
     /// Its springs along row and column bear this much before they tear (cloth/tear.h); empty: everything.
     std::vector<glsl::vec4> tear_limits;
@@ -67,7 +71,10 @@ struct ClothGeometry {
 
     /// Returns the unit direction of growing column (axis 0) or row at a particle as it starts.
     Vec3 start_direction(std::uint32_t particle, std::size_t axis) const;
-    /// Returns the flat cloth's diagonal, m.
+    /// Returns the length at rest, m, of a spring that `particle` owns, as the device computes it from that on flat
+    /// cloth.
+    float rest_length(float flat, std::size_t particle, std::size_t direction) const;
+    /// Returns the diagonal of the cloth at rest, m, or more.
     float reach() const;
 
   private:

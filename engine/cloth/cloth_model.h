@@ -40,6 +40,10 @@ struct ClothModel : ClothGeometry {
     glsl::WindPush wind;            ///< substep is set per substep
     glsl::CollisionPush collision;  ///< first is set per substep
     glsl::ResidualPush residual;    ///< constants of the check between iterations
+    /// Returns the skin of a particle, where all have the cloth's too.
+    glsl::vec2 skin_of(std::size_t particle) const {
+        return skin.empty() ? glsl::vec2{collision.contact.x, collision.contact.y} : skin[particle];
+    }
     /// Returns `collision` with the reach of edges for the thickness.
     glsl::CollisionPush collider_edges() const;
 

@@ -30,6 +30,7 @@ bool judged(Context c) { return c.needs.statistics || c.model.compares_states();
 bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
+bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.colliders.empty(); }
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
@@ -39,10 +40,14 @@ bool tense(Context c) {
 bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent spring_list(Context c) {
+    return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
+}
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
+FieldExtent particle_list(Context c) { return {c.cloth.skin.size()}; }
 FieldExtent one(Context) { return {1}; }
 FieldExtent pinned_list(Context c) { return {c.cloth.pinned.size()}; }
 FieldExtent cells(Context c) { return {c.cloth.grid.columns() - 1, c.cloth.grid.rows() - 1}; }
@@ -103,8 +108,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::normal, "normal", image, vector, frame, drawn, particles},
         {Field::whole_spring_share, "whole spring shares", image, vector, constant, stiffens, particles,
          [](Context c) { return bytes_of_list(c.topology.whole_spring_shares()); }},
-        {Field::spring_share, "spring shares", image, vector, constant, masked, particles,
-         [](Context c) { return bytes_of_list(c.topology.spring_shares()); }, stiffens},
+        {Field::spring_share, "spring shares", image, vector, constant, masked, spring_list,
+         [](Context c) { return bytes_of_list(c.topology.spring_texels()); }, stiffens},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tear_limits, "tear limits", image, vector, constant,
@@ -143,6 +148,8 @@ std::vector<FieldRow> other_rows() {
          [](Context c) { return bytes_of_list(c.topology.vertices()); }},
         {Field::tethers, "tethers", texel_buffer, layout_of<glsl::ParticleTethers>(), constant, tethered, tether_list,
          [](Context c) { return bytes_of_list(c.topology.tethers()); }},
+        {Field::skin, "skin", buffer, layout_of<glsl::vec2>(), constant, has_own_skin, particle_list,
+         [](Context c) { return bytes_of_list(c.cloth.skin); }},
         {Field::pinned_particles, "pinned particles", buffer, layout_of<glsl::PinnedParticle>(), constant, pinned,
          pinned_list, [](Context c) { return bytes_of_list(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,

@@ -60,6 +60,7 @@ enum class Field : std::uint8_t {
     triangles,         ///< index buffer
     cut_vertices,      ///< vertices on cut springs
     tethers,           ///< tethers of every particle
+    skin,              ///< ClothGeometry::skin, of cloth that meets colliders
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< motion of every such pin in every substep
 };

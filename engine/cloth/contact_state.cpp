@@ -12,6 +12,7 @@ using glsl::layout_of;
 using Context = const ContactContext&;
 
 bool always(Context) { return true; }
+bool has_skins(Context c) { return !c.contact.skins.empty(); }
 bool crossed(Context c) { return !c.contact.to_part.empty(); }
 
 FieldExtent one(Context) { return {1}; }
@@ -35,6 +36,8 @@ std::vector<ContactRow> rows() {
          [](Context c) { return bytes_of_list(c.contact.owners()); }},
         {ContactField::cloths, "cloths", buffer, layout_of<glsl::SelfCloth>(), constant, always, contact_rows::cloths,
          [](Context c) { return bytes_of_list(c.contact.cloths); }},
+        {skins, "skins", buffer, layout_of<glsl::vec2>(), constant, has_skins, places,
+         [](Context c) { return bytes_of_list(c.contact.skins); }},
         {meetings, "meetings", buffer, integer, constant, always,
          [](Context c) { return FieldExtent{c.contact.meetings.size()}; },
          [](Context c) { return bytes_of_list(c.contact.meetings); }},

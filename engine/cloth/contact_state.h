@@ -10,6 +10,7 @@ namespace drape {
 enum class ContactField : std::uint8_t {
     owners,         ///< by place on the sheet: its cloth, or -1
     cloths,         ///< where the cloths lie on the sheet (shared/self_contact_types.h)
+    skins,          ///< SelfContact::skins
     meetings,       ///< by cloth and cloth: self_meets and those beside it
     crossed,        ///< pairs of cloths that started through each other
     crossings,      ///< what the substep found of them

@@ -49,6 +49,16 @@ void CutTopology::set_stiffness(float factor) {
         acting_shares_.push_back({share.x * factor, share.y * factor, share.z * factor, share.w * factor});
 }
 
+std::vector<glsl::vec4> CutTopology::spring_texels() const {
+    const std::vector<glsl::vec4>&scales = cloth_->rest_scales, &shares = spring_shares();
+    if (scales.empty()) return shares;
+    std::vector<glsl::vec4> texels;
+    for (std::size_t first = 0; first < shares.size(); first += columns_)
+        for (const std::vector<glsl::vec4>* values : {&shares, &scales})
+            for (std::size_t i = first; i < first + columns_; ++i) texels.push_back((*values)[i]);
+    return texels;
+}
+
 float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) const {
     return component(cuts_[particle], direction);
 }

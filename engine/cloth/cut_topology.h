@@ -52,6 +52,9 @@ class CutTopology {
     const std::vector<glsl::vec4>& whole_spring_shares() const { return spring_shares_; }
     /// Takes the factor of a stiffness that changes.
     void set_stiffness(float factor);
+    /// Returns the rows of the image of spring shares: the shares of a row and, where the cloth has a shape of rest,
+    /// the scales of its springs' lengths behind them (shaders/include/rest_length.h).
+    std::vector<glsl::vec4> spring_texels() const;
     /// Returns the cells that are there now.
     const Grid& grid() const { return grid_; }
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }

@@ -52,8 +52,8 @@ std::string pinched_between(const SimulationModel& model, const Cloth& cloth, st
     if (!(room < at_start)) return {};
     // Contact keeps a cloth's particles out of larger shapes, so that its triangles are outside the colliders.
     const double kept_out = room_between(contact_shape(cloth, all[a]), contact_shape(cloth, all[b]), 0);
-    const double taken = at_start - kept_out + 2 * cloth.thickness;
-    if (!(room < taken) || kept_out < 2 * cloth.thickness) return {};
+    const double thickness = least_thickness(cloth), taken = at_start - kept_out + 2 * thickness;
+    if (!(room < taken) || kept_out < 2 * thickness) return {};
     return fmt::format("{} and {} leave {:.3g} m between them, where cloth '{}' takes {:.3g}", name_of(model, a),
                        name_of(model, b), room, cloth.name, taken);
 }

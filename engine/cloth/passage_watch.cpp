@@ -101,7 +101,7 @@ void look_at(const Cloth& cloth, const Collider& collider, const Frame& frame, d
     constexpr double most_strain = 0.5;
     const Motion motion = motion_of(collider, frame.end, (frame.end - frame.start) / frame.substeps, frame.substeps);
     // Thick cloth is kept off boxes by its particles alone, as off round colliders.
-    const bool by_edges = collider.kind() == glsl::kind_box && cloth.thickness < covering_radius(cloth);
+    const bool by_edges = collider.kind() == glsl::kind_box && least_thickness(cloth) < covering_radius(cloth);
     const double half = least_half_width(collider.shape);
     if (motion.way > 1e14 && collider.kind() != glsl::kind_sphere)
         see({.by = Passage::By::turn, .found = std::max(motion.turn, 1.01 * most_turn), .kept = most_turn});
@@ -109,7 +109,7 @@ void look_at(const Cloth& cloth, const Collider& collider, const Frame& frame, d
         see({.by = Passage::By::way, .found = 1.25 * (own + motion.way), .kept = half});
     see({.by = Passage::By::hole,
          .found = widest_hole(cloth, largest_strains(frame.before, frame.now)),
-         .kept = by_edges ? widest_hole(cloth, {most_strain, most_strain}) : half + cloth.thickness});
+         .kept = by_edges ? widest_hole(cloth, {most_strain, most_strain}) : half + least_thickness(cloth)});
 }
 
 /// Calls `see(passage)` for every collider that comes near the cloth in the frame.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/contact_shape.h"
+
 namespace drape {
 
 namespace {
@@ -11,7 +13,16 @@ namespace {
 /// neighbours are a spacing apart, and shall not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
-double smaller_spacing(const ClothModel& model) { return std::min(model.spacing[0], model.spacing[1]); }
+/// Returns the spacings, m, along columns and rows of a flat cloth whose particles are no farther apart than those of
+/// this one at rest.
+std::array<double, 2> least_spacing(const ClothModel& model) {
+    float least = 1;
+    for (const glsl::vec4& scales : model.rest_scales)
+        least = std::min({least, scales.x, scales.y, scales.z, scales.w});
+    return {least * model.spacing[0], least * model.spacing[1]};
+}
+
+double smaller_spacing(const ClothModel& model) { return std::ranges::min(least_spacing(model)); }
 
 int top_level(glsl::ivec2 grid) {
     int level = 0;
@@ -19,18 +30,30 @@ int top_level(glsl::ivec2 grid) {
     return level;
 }
 
+/// Returns the friction coefficient between a cloth's layers, but for maps.
+double friction_of(const Cloth& cloth) {
+    return cloth.self_collision.value_or(SelfCollision{}).friction.value_or(cloth.friction);
+}
+
+/// Returns the thickness between the layers of a cloth whose particle has this factor, m: what it asks for, within what
+/// its grid allows. One that a scene gives, and no map changes, is within that but for rounding.
+float layer_thickness(const Cloth& cloth, double spacing, float factor = 1) {
+    const std::optional<double> asked = cloth.self_collision.value_or(SelfCollision{}).thickness;
+    if (asked && cloth.particle_thickness.empty()) return static_cast<float>(*asked);
+    return static_cast<float>(std::clamp(asked.value_or(cloth.thickness) * static_cast<double>(factor),
+                                         least_self_thickness * spacing, most_self_thickness * spacing));
+}
+
 glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     const double spacing = smaller_spacing(model);
-    const SelfCollision asked = cloth.self_collision.value_or(SelfCollision{});
     glsl::SelfCloth constants{};
     constants.grid = model.grid.size();
-    constants.spacing = {static_cast<float>(model.spacing[0]), static_cast<float>(model.spacing[1])};
-    constants.thickness = static_cast<float>(asked.thickness.value_or(
-        std::clamp(cloth.thickness, least_self_thickness * spacing, most_self_thickness * spacing)));
-    constants.friction = static_cast<float>(asked.friction.value_or(cloth.friction));
+    const auto [dx, dy] = least_spacing(model);
+    constants.spacing = {static_cast<float>(dx), static_cast<float>(dy)};
+    constants.thickness = layer_thickness(cloth, spacing);
+    constants.friction = static_cast<float>(friction_of(cloth));
     // In flat cloth the nearest primitives that share no corner are a cell's corner and the diagonal beside it.
-    constants.least_flat =
-        static_cast<float>(model.spacing[0] * model.spacing[1] / std::hypot(model.spacing[0], model.spacing[1]));
+    constants.least_flat = static_cast<float>(dx * dy / std::hypot(dx, dy));
     return constants;
 }
 
@@ -129,6 +152,25 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
     push.cloth = cloths.front();
+    lay_skins(scene, models);
+}
+
+void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<ClothModel>& models) {
+    if (std::ranges::none_of(scene.cloths, has_skin)) return;
+    skins.resize(place_count());
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        const Cloth& cloth = scene.cloths[k];
+        const glsl::SelfCloth& laid = cloths[k];
+        const auto columns = std::size_t(laid.grid.x);
+        for (std::size_t particle = 0; particle < models[k].grid.particle_count(); ++particle) {
+            const float thickness =
+                layer_thickness(cloth, smaller_spacing(models[k]), thickness_factor(cloth, particle));
+            const double friction = friction_of(cloth) * static_cast<double>(friction_factor(cloth, particle));
+            const std::size_t column = std::size_t(laid.first.x) + particle % columns,
+                              row = std::size_t(laid.first.y) + particle / columns;
+            skins[row * std::size_t(push.grid.x) + column] = {thickness, static_cast<float>(std::sqrt(friction))};
+        }
+    }
 }
 
 std::vector<int> SelfContact::owners() const {

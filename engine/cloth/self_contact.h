@@ -37,8 +37,11 @@ struct SelfContact {
     glsl::SelfContactPush push{};         ///< round and the capacity of the lists are set per step
     ContactCapacity capacity;             ///< capacity of the lists in the beginning
     std::vector<glsl::SelfCloth> cloths;  ///< constants of each cloth and its place on the sheet
-    glsl::ivec2 largest{};                ///< most columns and most rows of any cloth
-    bool held = false;                    ///< whether some particles are always held
+    /// By place on the sheet; x: thickness kept between layers, m; y: square root of the friction coefficient. Empty:
+    /// no cloth has maps of these.
+    std::vector<glsl::vec2> skins;
+    glsl::ivec2 largest{};             ///< most columns and most rows of any cloth
+    bool held = false;                 ///< whether some particles are always held
     std::vector<glsl::uint> meetings;  ///< by cloth and cloth: self_meets_not, self_meets or self_meets_apart + index
     std::vector<glsl::SelfCrossed> to_part;  ///< pairs of cloths that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< cloths that start through each other, or through themselves
@@ -46,6 +49,9 @@ struct SelfContact {
     /// `begins_frame`: in the frame's first substep.
     glsl::SelfClothPush cloth_push(std::size_t cloth, bool begins_frame) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
+
+  private:
+    void lay_skins(const SceneDescription& scene, const std::vector<ClothModel>& models);
 };
 
 /// Returns the largest share of a list's capacity that a frame asked for; above 1 entries did not fit.

@@ -53,6 +53,8 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
     small.velocities.clear();
     small.cell_stiffness.clear();
     small.cell_density.clear();
+    small.particle_friction.clear();
+    small.particle_thickness.clear();
     const MethodSettings settings{substeps,
                                   1,
                                   1 / (scene.time.fps * substeps),

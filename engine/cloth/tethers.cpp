@@ -8,6 +8,7 @@
 #include <queue>
 
 #include "cloth/directions.h"
+#include "cloth/texels.h"
 
 namespace drape {
 
@@ -37,7 +38,8 @@ Field straight_distances(const Grid& grid, const double (&spacing)[2], const Ind
 }
 
 /// Finds Dijkstra's shortest paths from all of the box's particles along the springs that exist.
-Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBox& box) {
+Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBox& box,
+                     const std::vector<glsl::vec4>& rest_scales) {
     Field field(grid.particle_count());
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -54,6 +56,11 @@ Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBo
         const glsl::vec4 s = grid.spring_shares(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         return std::array<float, 4>{s.x, s.y, s.z, s.w};
     };
+    const auto length_of = [&](std::uint32_t owner, std::size_t direction) {
+        const glsl::ivec2 offset = spring_directions[direction].offset;
+        const double flat = std::hypot(offset.x * spacing[0], offset.y * spacing[1]);
+        return rest_scales.empty() ? flat : flat * static_cast<double>(component(rest_scales[owner], direction));
+    };
     const glsl::ivec2 size = grid.size();
     while (!queue.empty()) {
         const auto [distance, particle] = queue.top();
@@ -66,8 +73,9 @@ Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBo
                 const int to_x = x + sign * offset.x, to_y = y + sign * offset.y;
                 if (to_x < 0 || to_y < 0 || to_x >= size.x || to_y >= size.y) continue;
                 if (!(shares(sign > 0 ? x : to_x, sign > 0 ? y : to_y)[direction] > 0)) continue;
-                reach(grid.particle(static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y)),
-                      field[particle].particle, distance + std::hypot(offset.x * spacing[0], offset.y * spacing[1]));
+                const std::uint32_t to =
+                    grid.particle(static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y));
+                reach(to, field[particle].particle, distance + length_of(sign > 0 ? particle : to, direction));
             }
     }
     return field;
@@ -76,11 +84,13 @@ Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBo
 }  // namespace
 
 std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const double (&spacing)[2],
-                                                const std::vector<Pin>& pins, double give) {
+                                                const std::vector<Pin>& pins, double give,
+                                                const std::vector<glsl::vec4>& rest_scales) {
     std::vector<std::array<Nearest, 2>> nearest(grid.particle_count());
     for (const Pin& pin : pins) {
-        const Field field = grid.whole() ? straight_distances(grid, spacing, pin.particles)
-                                         : path_distances(grid, spacing, pin.particles);
+        const Field field = grid.whole() && rest_scales.empty()
+                                ? straight_distances(grid, spacing, pin.particles)
+                                : path_distances(grid, spacing, pin.particles, rest_scales);
         for (std::size_t i = 0; i < field.size(); ++i) {
             auto& [first, second] = nearest[i];
             if (field[i].distance < first.distance) {

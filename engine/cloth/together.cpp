@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "scene/contact_shape.h"
+
 namespace drape {
 
 namespace {
@@ -15,7 +17,8 @@ constexpr std::uint64_t most_particles = 128 * 128;
 bool have_same_shape(const Cloth& one, const Cloth& other) {
     return one.stiffness_keys.empty() && other.stiffness_keys.empty() && one.grid == other.grid &&
            one.holes == other.holes && one.cell_stiffness == other.cell_stiffness &&
-           one.cell_density == other.cell_density && one.self_collision.has_value() == other.self_collision.has_value();
+           one.cell_density == other.cell_density && one.rest == other.rest &&
+           one.self_collision.has_value() == other.self_collision.has_value() && has_skin(one) == has_skin(other);
 }
 
 float sign(float number) { return number > 0 ? 1.0f : 0.0f; }

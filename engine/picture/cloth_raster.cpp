@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/contact_shape.h"
+
 namespace drape {
 
 namespace {
@@ -20,7 +22,7 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
     for (const ClothState& state : states) {
         const Cloth& cloth = model.scene.cloths[state.cloths.front()];
         const Grid& grid = state.model->grid;
-        cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], cloth.thickness,
+        cloths.push_back({cloth.name, grid.columns(), grid.rows(), cloth.size[0], cloth.size[1], least_thickness(cloth),
                           cloth.appearance, state[Field::position], state[Field::normal], state[Field::triangles],
                           state.index_count, state[Field::cut_vertices], state[Field::spring_share],
                           rest_lengths(*state.model)});

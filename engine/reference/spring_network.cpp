@@ -97,6 +97,7 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy),
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)};
     const double rest[4] = {dx, dy, std::hypot(dx, dy), std::hypot(dx, dy)};
+    const std::vector<std::array<double, 4>> ratios = rest_ratios(cloth);
     for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
         const SpringDirection& table = spring_directions[direction];
         for (std::uint32_t row = 0; row < grid.rows(); ++row)
@@ -107,8 +108,8 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
                 const std::uint32_t first = grid.particle(column, row);
                 const auto step = table.offset.y * static_cast<int>(grid.columns()) + table.offset.x;
                 springs.push_back({first, static_cast<std::uint32_t>(static_cast<int>(first) + step),
-                                   share * stiffness[direction], rest[direction], table.family,
-                                   cloth.stiffness.compression});
+                                   share * stiffness[direction], ratios[first][direction] * rest[direction],
+                                   table.family, cloth.stiffness.compression});
             }
     }
 }

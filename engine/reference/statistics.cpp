@@ -44,6 +44,7 @@ class Reduction {
           colliders_(model.scene.colliders),
           made_(twin_fields(model, inputs)),
           fields_(made_ ? made_->data() : model.mesh_fields.data()),
+          cloth_(cloth),
           push_(statistics_push(model, cloth)),
           reference_(statistics_reference(cloth)),
           masses_(mass_shares(cloth)) {}
@@ -78,7 +79,7 @@ class Reduction {
             particle_statistics(xyz(position), velocity, share, xyz(reference_), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
-        if (position.w != 0.0f) record.extents.z = penetration(xyz(position));
+        if (position.w != 0.0f) record.extents.z = penetration(xyz(position), cloth_.skin_of(index).x);
         return record;
     }
 
@@ -89,20 +90,20 @@ class Reduction {
         const float share = state_.topology.masked() ? component(state_.topology.spring_shares()[at(first)], direction)
                                                      : border_share(first, offset, push_.grid);
         const float tension = direction < 2 ? state_.tension(static_cast<std::size_t>(direction))[at(first)] : 0.0f;
-        return add_spring_strain(record, xyz(state_[Field::position][at(first)]),
-                                 xyz(state_[Field::position][at(second)]), component(push_.rest_length, direction),
-                                 component(push_.half_stiffness, direction), share, push_.compression, tension,
-                                 direction >= 2);
+        return add_spring_strain(
+            record, xyz(state_[Field::position][at(first)]), xyz(state_[Field::position][at(second)]),
+            state_.topology.cloth().rest_length(component(push_.rest_length, direction), at(first), direction),
+            component(push_.half_stiffness, direction), share, push_.compression, tension, direction >= 2);
     }
 
-    float penetration(vec3 position) const {
+    float penetration(vec3 position, float thickness) const {
         const vec3 rest{0, 0, 0};
         float deepest = 0.0f;
         for (std::size_t k = 0; k < colliders_.size(); ++k) {
             const ColliderRecord& record = inputs_.colliders[static_cast<std::size_t>(push_.collider_first) + k];
-            const float depth = collider_contact(colliders_[k].kind(), record, position, rest, reference_.w, 0.0f,
-                                                 1.0e30f, false, fields_)
-                                    .depth;
+            const float depth =
+                collider_contact(colliders_[k].kind(), record, position, rest, thickness, 0.0f, 1.0e30f, false, fields_)
+                    .depth;
             deepest = depth > deepest ? depth : deepest;
         }
         return deepest;
@@ -113,6 +114,7 @@ class Reduction {
     const std::vector<drape::Collider>& colliders_;
     std::shared_ptr<const std::vector<vec4>> made_;  ///< fields of meshes that deform
     const vec4* fields_;
+    const ClothModel& cloth_;
     StatisticsPush push_;
     vec4 reference_;
     std::vector<float> masses_;

@@ -16,10 +16,15 @@ std::vector<vec4> tear_loads(const CutTopology& topology, const std::vector<vec4
     const auto shares = [&](int x, int y) {
         return topology.masked() ? topology.spring_shares()[place(x, y)] : vec4{1, 1, 1, 1};
     };
+    const auto rest = [&](float flat, int x, int y, std::size_t direction) {
+        return cloth.rest_length(flat, place(x, y), direction);
+    };
     const auto diagonals = [&](int x, int y) {
         if (x < 0 || y < 0 || x + 1 >= push.grid.x || y + 1 >= push.grid.y) return 0.0f;
         return diagonal_strains(particle(x, y), particle(x + 1, y), particle(x, y + 1), particle(x + 1, y + 1),
-                                shares(x, y).z, shares(x + 1, y).w, push.rest_diagonal, push.compression);
+                                shares(x, y).z, shares(x + 1, y).w,
+                                {rest(push.rest_diagonal, x, y, 2), rest(push.rest_diagonal, x + 1, y, 3)},
+                                push.compression);
     };
     std::vector<vec4> loads(position.size(), {0, 0, 0, 0});
     for (int y = 0; y < push.grid.y; ++y)
@@ -30,13 +35,13 @@ std::vector<vec4> tear_loads(const CutTopology& topology, const std::vector<vec4
                 return shears ? diagonals(x - left, y - up) + diagonals(x, y) : 0.0f;
             };
             if (x + 1 < push.grid.x && share.x != 0.0f)
-                loads[place(x, y)].x =
-                    tear_load(balancing_strain(particle(x, y), particle(x + 1, y), push.rest_row, push.compression),
-                              around(0, 1), limits.z, limits.x);
+                loads[place(x, y)].x = tear_load(balancing_strain(particle(x, y), particle(x + 1, y),
+                                                                  rest(push.rest_row, x, y, 0), push.compression),
+                                                 around(0, 1), limits.z, limits.x);
             if (y + 1 < push.grid.y && share.y != 0.0f)
-                loads[place(x, y)].y =
-                    tear_load(balancing_strain(particle(x, y), particle(x, y + 1), push.rest_column, push.compression),
-                              around(1, 0), limits.w, limits.y);
+                loads[place(x, y)].y = tear_load(balancing_strain(particle(x, y), particle(x, y + 1),
+                                                                  rest(push.rest_column, x, y, 1), push.compression),
+                                                 around(1, 0), limits.w, limits.y);
         }
     return loads;
 }

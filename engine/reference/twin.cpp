@@ -209,7 +209,8 @@ void run_spring(const TwinPlace& where) {
                        moved_second = xyz(state[Field::displacement][second]);
             const vec3 edge = spring_edge(xyz(state[Field::position][first]), xyz(state[Field::position][second]),
                                           moved_first, moved_second);
-            const SpringResult result = project_spring(edge, weight_first + weight_second, push.rest_length, share,
+            const SpringResult result = project_spring(edge, weight_first + weight_second,
+                                                       model.rest_length(push.rest_length, first, push.channel), share,
                                                        push.compression, push.compliance, tension);
             state.move_to(first, moved_by(moved_first, result.correction, -weight_first));
             state.move_to(second, moved_by(moved_second, result.correction, weight_second));

@@ -27,7 +27,8 @@ ResidualRecord with_spring(const ResidualRecord& record, const ClothModel& model
     const std::size_t a = at(model.grid, first), b = at(model.grid, second);
     const vec3 edge = spring_edge(xyz(state[Field::position][a]), xyz(state[Field::position][b]),
                                   xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b]));
-    return add_residual(record, edge, channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y,
+    const float flat = channel == 0 ? model.residual.rest_length.x : model.residual.rest_length.y;
+    return add_residual(record, edge, model.rest_length(flat, a, channel),
                         state.topology.masked() ? component(state.topology.spring_shares()[a], channel) : 1.0f,
                         model.residual.compression, state.tension(static_cast<std::size_t>(channel))[a]);
 }

@@ -75,7 +75,7 @@ void run_collider_edges(const TwinPlace& where) {
                 const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider, kind == kind_mesh);
                 const vec3 surface = kind == kind_mesh ? mesh_displacement(collider, local, edges.fields)
                                                        : surface_displacement(collider, local);
-                moved = taken_displacement(moved, taken, surface, collider, edges.push.contact.y);
+                moved = taken_displacement(moved, taken, surface, collider, model.skin_of(i).y);
                 touched = touched || ordered_dot(taken, taken) > 0.0f;
             }
             state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, touched ? 1.0f : 0.0f);
@@ -126,6 +126,7 @@ void run_collide(const TwinPlace& where) {
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
+        const vec2 skin = model.skin_of(i);
         vec3 displacement = displacement_before_colliders(where, i), way_out{};
         bool touched = step.after_edges && state[Field::lifted][i].w > 0.0f;
         vec3 lies_on{};
@@ -135,9 +136,8 @@ void run_collide(const TwinPlace& where) {
             vec3 normal{}, led{};
             vec4 grip{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
-                const Contact contact =
-                    collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k], start, displacement,
-                                     push.contact.x, push.contact.y, recovery, true, fields);
+                const Contact contact = collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k],
+                                                         start, displacement, skin.x, skin.y, recovery, true, fields);
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;

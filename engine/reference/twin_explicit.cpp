@@ -38,8 +38,10 @@ struct Before {
                 xyz(state[Field::displacement][index(there)]) - xyz(state[Field::displacement][index(here)]);
             const float relative_stiffness =
                 component(push.relative_stiffness, around.z) * share(around.w == 1 ? here : there, offset, around.z);
-            sum = add_pull(sum, spring_pull(edge(here, there), closing, component(push.rest_length, around.z),
-                                            relative_stiffness, push.compression.x, push.strain_damping));
+            const float rest = state.topology.cloth().rest_length(component(push.rest_length, around.z),
+                                                                  index(around.w == 1 ? here : there), around.z);
+            sum = add_pull(sum, spring_pull(edge(here, there), closing, rest, relative_stiffness, push.compression.x,
+                                            push.strain_damping));
         }
         return sum;
     }
@@ -123,22 +125,23 @@ void run_explicit_step(const TwinPlace& where) {
 std::vector<TwinRow> twin_explicit_rows() { return {{StepKind::explicit_step, run_explicit_step}}; }
 
 void Twin::tension(std::size_t index) {
-    const TensionPush& push = model_->cloths[index].scheme.gathered_tension.value();
-    const Grid& grid = model_->cloths[index].grid;
+    const ClothModel& model = model_->cloths[index];
+    const TensionPush& push = model.scheme.gathered_tension.value();
+    const Grid& grid = model.grid;
     TwinCloth& state = cloths_[index];
-    const auto tension_to = [&](ivec2 first, ivec2 second, float rest_length, float used_share) {
+    const auto tension_to = [&](ivec2 first, ivec2 second, int channel) {
         const std::size_t a = at(grid, first), b = at(grid, second);
         return gathered_tension(xyz(state[Field::position][b]) - xyz(state[Field::position][a]),
-                                xyz(state[Field::displacement][b]) - xyz(state[Field::displacement][a]), rest_length,
-                                used_share, push.compression, push.strain_damping);
+                                xyz(state[Field::displacement][b]) - xyz(state[Field::displacement][a]),
+                                model.rest_length(channel == 0 ? push.rest_length.x : push.rest_length.y, a, channel),
+                                channel == 0 ? push.used_share.x : push.used_share.y, push.compression,
+                                push.strain_damping);
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
             const std::size_t i = at(grid, {x, y});
-            if (x + 1 < push.grid.x)
-                state.tension(0)[i] = tension_to({x, y}, {x + 1, y}, push.rest_length.x, push.used_share.x);
-            if (y + 1 < push.grid.y)
-                state.tension(1)[i] = tension_to({x, y}, {x, y + 1}, push.rest_length.y, push.used_share.y);
+            if (x + 1 < push.grid.x) state.tension(0)[i] = tension_to({x, y}, {x + 1, y}, 0);
+            if (y + 1 < push.grid.y) state.tension(1)[i] = tension_to({x, y}, {x, y + 1}, 1);
         }
 }
 

@@ -83,7 +83,8 @@ struct LineView {
     vec3 displacement(std::size_t particle) const { return xyz(state[Field::displacement][index(particle)]); }
     vec3 start(std::size_t particle) const { return xyz(state[Field::position][index(particle)]); }
     vec3 edge(std::size_t e) const { return spring_edge(start(e), start(e + 1), moved[e], moved[e + 1]); }
-    LineSpring spring(std::size_t e) const { return line_spring(edge(e), push.rest_length); }
+    LineSpring spring(std::size_t e) const { return line_spring(edge(e), rest_length(e)); }
+    float rest_length(std::size_t e) const { return model.rest_length(push.rest_length, index(e), push.channel); }
     float share(std::size_t e) const {
         if (particles[e].x == push.seam) return 0.0f;
         return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
@@ -171,8 +172,8 @@ std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& st
 void filter(LineView& line, float compliance, float followed, bool by_reduction, float bend) {
     std::vector<float> per_length, stiffness;
     for (std::size_t e = 0; e < line.spring_count(); ++e) {
-        per_length.push_back(tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e),
-                                                line.push.rest_length));
+        per_length.push_back(
+            tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e), line.rest_length(e)));
         stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), reciprocal(compliance)));
     }
     if (by_reduction)

@@ -27,7 +27,7 @@ struct NestedLine {
         const std::size_t a = index(e), b = index(e + 1);
         return line_spring(spring_edge(xyz(state[Field::position][a]), xyz(state[Field::position][b]),
                                        xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b])),
-                           component(push.rest_length, direction));
+                           model.rest_length(component(push.rest_length, direction), a, direction));
     }
     float share(std::size_t e) const {
         if (particles[e].x == seam) return 0.0f;

@@ -85,10 +85,20 @@ class ContactStep {
     SelfCorners positions(const TwinPair& pair) const {
         return corners(pair, [this](uint place) { return position(place); });
     }
-    float thickness(const TwinPair& pair) const {
+    /// Returns the thickness that a pair keeps, m, and its friction.
+    vec2 skin(const TwinPair& pair, vec4 weights) const {
         const uvec4& all = pair.corners;
-        return self_pair_thickness(cloth_of(all.x), cloth_of(all.w), pair.edges, self_texel(all.x), self_texel(all.y),
-                                   self_texel(all.z), self_texel(all.w));
+        const SelfCloth &one = cloth_of(all.x), &other = cloth_of(all.w);
+        vec2 both{self_mean_thickness(one, other), self_pair_friction(one, other)};
+        if (!model_.skins.empty()) {
+            const auto [a, b, c, d] = places(pair);
+            const vec2 skins[] = {model_.skins[a], model_.skins[b], model_.skins[c], model_.skins[d]};
+            both = {self_thickness_there(weights, {skins[0].x, skins[1].x, skins[2].x, skins[3].x}),
+                    self_friction_there(pair.edges, weights, {skins[0].y, skins[1].y, skins[2].y, skins[3].y})};
+        }
+        return {self_pair_thickness(both.x, one, other, pair.edges, self_texel(all.x), self_texel(all.y),
+                                    self_texel(all.z), self_texel(all.w)),
+                both.y};
     }
     SelfBox point_box(uint place) const { return self_point_box(position(place), motion(place)); }
     SelfBox slab(uint corner, vec3 axis) const {
@@ -270,12 +280,11 @@ void ContactStep::add_pair(const TwinPair& pair, vec3 axis) {
     if (!self_primitives_meet(one, other, push_, mean)) return;
     const SelfGap gap = self_gap(pair.edges, positions(pair));
     const SelfCorners motions = corners(pair, [this](uint place) { return motion(place); });
-    const float kept = thickness(pair);
+    const auto [kept, friction] = skin(pair, gap.weights);
     if (!self_listed_pair(pair.edges, gap, motions, kept, mean)) return;
     ++(pair.edges ? contact_.record.edge_count : contact_.record.point_count);
     contact_.pairs.push_back(pair);
-    if (self_touches(pair.edges, gap, motions, kept))
-        touch(pair, gap, self_pair_friction(cloth_of(all.x), cloth_of(all.w)), kept);
+    if (self_touches(pair.edges, gap, motions, kept)) touch(pair, gap, friction, kept);
 }
 
 void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept) {

@@ -31,6 +31,10 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
     const auto reach = static_cast<float>(shape.thickness + contact_reach * edge);
     std::vector<std::int16_t> touched(xyzw.size() / 4, -1);
     std::vector<float> nearest(touched.size(), reach);
+    if (has_skin(shape))
+        for (std::size_t particle = 0; particle < nearest.size(); ++particle)
+            nearest[particle] =
+                static_cast<float>(shape.thickness * double{thickness_factor(shape, particle)} + contact_reach * edge);
     for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
         const int kind = scene.colliders[number].kind();
         const Collider kept = formed(contact_shape(shape, scene.colliders[number]), time);

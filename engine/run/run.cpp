@@ -7,6 +7,7 @@
 #include "mesh/mesh_sequence.h"
 #include "output/kept_frames.h"
 #include "run/frame_sink.h"
+#include "scene/contact_shape.h"
 #include "spirv_modules.h"
 
 namespace drape {
@@ -20,7 +21,10 @@ std::string given_hash(const Cloth& cloth) {
            xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
            xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_tear)));
+           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_tear))) +
+           (has_skin(cloth) ? xxh3_128_hex(std::as_bytes(std::span(cloth.particle_friction))) +
+                                  xxh3_128_hex(std::as_bytes(std::span(cloth.particle_thickness)))
+                            : "");
 }
 
 std::string given_hash(const MeshShape& mesh) {

@@ -279,14 +279,14 @@ bool check_cloth(const Members& members, Cloth& cloth) {
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     if (members.fit({"stiffness", "tear"})) fits = check_torn_cloth(members, cloth) && fits;
     if (members.fit({"stiffness", "stiffness_keys", "tear"})) fits = check_stiffness_keys(members, cloth) && fits;
+    if (members.fit({"grid", "size", "self_collision"}))
+        fits = check_self_collision(members["self_collision"], cloth) && fits;
     if (members.fit({"grid", "maps", "stiffness", "tear"})) fits = take_maps(members, cloth) && fits;
     if (fits && members.fit({"grid", "holes", "maps"}) && !leaves_a_cell(cloth))
         fits = members[members["holes"] ? "holes" : "maps"].fail(
             "expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
-    if (members.fit({"grid", "size", "self_collision"}))
-        fits = check_self_collision(members["self_collision"], cloth) && fits;
     if (members.fit({"grid", "size", "start"})) fits = take_start(members, cloth) && fits;
     if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {

@@ -39,13 +39,19 @@ struct Grow {
 double covering_radius(const Cloth& cloth) {
     double squared = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        // A given shape may be as uneven as cloth is that moves.
-        const double scale = cloth.start.empty() ? cloth.placement.scale[axis]
-                                                 : start_ratios(cloth, axis).largest / (1 + contact_stretch);
+        // A given shape may be as uneven as cloth is that moves, unless that is at rest and may stretch, too.
+        const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
+        const double scale =
+            cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;
         const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, scale);
         squared += spacing * spacing;
     }
     return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
+}
+
+double least_thickness(const Cloth& cloth) {
+    const std::vector<float>& factors = cloth.particle_thickness;
+    return factors.empty() ? cloth.thickness : cloth.thickness * static_cast<double>(std::ranges::min(factors));
 }
 
 double edge_reach(const Cloth& cloth) { return 2 * covering_radius(cloth); }
@@ -56,13 +62,14 @@ bool meets_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
         const Mesh* mesh = std::get_if<Mesh>(&each.shape);
         return std::holds_alternative<Box>(each.shape) || (mesh && !mesh->shell);
     };
-    return cloth.contact == ContactOf::surface && cloth.thickness < covering_radius(cloth) &&
+    return cloth.contact == ContactOf::surface && least_thickness(cloth) < covering_radius(cloth) &&
            std::ranges::any_of(colliders, has_edges);
 }
 
 Collider contact_shape(const Cloth& cloth, const Collider& collider) {
     Collider kept = collider;
-    if (cloth.contact == ContactOf::surface) std::visit(Grow{covering_radius(cloth), cloth.thickness}, kept.shape);
+    if (cloth.contact == ContactOf::surface)
+        std::visit(Grow{covering_radius(cloth), least_thickness(cloth)}, kept.shape);
     return kept;
 }
 

@@ -46,6 +46,22 @@ std::vector<double> cell_values(const SceneNode& node, const std::string& name, 
     return values;
 }
 
+/// Returns a map's value at every particle, row by row.
+std::vector<double> particle_values(const SceneNode& node, const std::string& name, const Cloth& cloth) {
+    const GreyPicture map = input::read_map(node.file(name));
+    const auto [columns, rows] = cloth.grid;
+    const bool fits = map.width == columns && map.height == rows;
+    const auto place = [fits](std::uint32_t at, std::uint32_t count) {
+        return fits ? (at + 0.5) / count : static_cast<double>(at) / (count - 1);
+    };
+    std::vector<double> values;
+    values.reserve(std::size_t{columns} * rows);
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column)
+            values.push_back(input::sampled(map, place(column, columns), place(row, rows)));
+    return values;
+}
+
 /// Adds the cells as boxes: runs of a row, each as far down as the same cells are missing below.
 void add_holes(const std::vector<double>& values, Cloth& cloth) {
     const std::uint32_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
@@ -68,7 +84,7 @@ void add_holes(const std::vector<double>& values, Cloth& cloth) {
         }
 }
 
-/// Returns the factors of cells over `whole`.
+/// Returns the factors of cells or particles over `whole`.
 std::vector<float> factors(const std::vector<double>& values, const std::array<double, 2>& range, double whole) {
     std::vector<float> factors;
     for (const double value : values)
@@ -90,10 +106,20 @@ void take_factors(const MapFiles& files, const std::vector<double>& stiffness, c
     cloth.areal_density *= least;
 }
 
+/// The thicknesses that the cloth has from then on, that between layers too, are the largest of the map.
+void take_thickness(const MapFiles& files, const std::vector<double>& values, Cloth& cloth) {
+    if (values.empty()) return;
+    const double largest = std::ranges::max(files.thickness_range);
+    cloth.particle_thickness = factors(values, files.thickness_range, largest);
+    cloth.thickness *= largest;
+    if (cloth.self_collision && cloth.self_collision->thickness) *cloth.self_collision->thickness *= largest;
+}
+
 }  // namespace
 
 bool take_start(const Members& members, Cloth& cloth) {
-    const SceneNode node = members["start"];
+    const SceneNode node = members["start"], rest = members["rest"];
+    if (!node && cloth.rest == Rest::start) return rest.fail("expected a file start beside rest \"start\", got none");
     if (!node) return true;
     if (const SceneNode placement = members["placement"])
         return placement.fail("expected placement or start, got both");
@@ -111,7 +137,9 @@ bool take_start(const Members& members, Cloth& cloth) {
         cloth.start.clear();
         return node.fail(fmt::format("expected {} in '{}'", fault, name));
     }
-    warn_of_ratio(node, cloth);
+    if (const std::string fault = rest_fault(cloth); !fault.empty())
+        return node.fail(fmt::format("expected {} in '{}'", fault, name));
+    if (cloth.rest == Rest::flat) warn_of_ratio(node, cloth);
     return true;
 }
 
@@ -137,19 +165,21 @@ bool take_maps(const Members& members, Cloth& cloth) {
     const SceneNode node = members["maps"];
     if (!node || is_too_large(cloth)) return true;
     bool fits = true;
-    const auto values_of = [&](const char* key) -> std::vector<double> {
+    const auto values_of = [&](const char* key, decltype(&cell_values) read = cell_values) -> std::vector<double> {
         std::string name;
         const SceneNode file = node.member(key);
         if (!file || !file.read(name)) return {};
         try {
-            return cell_values(file, name, cloth);
+            return read(file, name, cloth);
         } catch (const OutputError& error) {
             fits = file.fail(error.what());
             return {};
         }
     };
     const std::vector<double> holes = values_of("holes"), stiffness = values_of("stiffness"),
-                              density = values_of("density"), tear = values_of("tear");
+                              density = values_of("density"), tear = values_of("tear"),
+                              friction = values_of("friction", particle_values),
+                              thickness = values_of("thickness", particle_values);
     if (!stiffness.empty() && cloth.stiffness.rigid)
         fits = node.member("stiffness").fail("expected springs with a stiffness, got stiffness \"rigid\"");
     if (!tear.empty() && !members["tear"])
@@ -159,9 +189,13 @@ bool take_maps(const Members& members, Cloth& cloth) {
     (void)node.member("stiffness_range").read(std::span<double>(files.stiffness_range), "", map_factor);
     (void)node.member("density_range").read(std::span<double>(files.density_range), "", map_factor);
     (void)node.member("tear_range").read(std::span<double>(files.tear_range), "", map_factor);
+    (void)node.member("friction_range").read(std::span<double>(files.friction_range), "", map_friction_factor);
+    (void)node.member("thickness_range").read(std::span<double>(files.thickness_range), "", map_factor);
     if (!holes.empty()) add_holes(holes, cloth);
     if (!tear.empty()) cloth.cell_tear = factors(tear, files.tear_range, 1);
+    if (!friction.empty()) cloth.particle_friction = factors(friction, files.friction_range, 1);
     take_factors(files, stiffness, density, cloth);
+    take_thickness(files, thickness, cloth);
     return true;
 }
 

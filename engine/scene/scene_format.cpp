@@ -174,9 +174,12 @@ const Object<SelfCollision> self_collision{
 
 const Object<MapFiles> maps{
     "maps",
-    "Pictures by which the cloth's cells differ: grey .png of up to 16 bits, or .npy [rows, columns] of uint8, uint16 "
+    "Pictures by which the cloth's cells and particles differ: grey .png of up to 16 bits, or .npy [rows, columns] of "
+    "uint8, uint16 "
     "or bool, or of float32 or float64 from 0 to 1. The first row is row 0. A map with a pixel for each cell ((columns "
-    "- 1) x (rows - 1)) has their values; any other is sampled at their middles, bilinearly. Names are as of start.",
+    "- 1) x (rows - 1)) has their values; any other is sampled at their middles, bilinearly. Maps of friction and "
+    "thickness are of particles: one with a pixel for each has their values, any other spans the cloth. Names are as "
+    "of start.",
     {
         {"holes", &MapFiles::holes, without_default(text()), "File. Cells are missing where it is below one half."},
         {"stiffness", &MapFiles::stiffness, without_default(text()),
@@ -191,6 +194,15 @@ const Object<MapFiles> maps{
          "rips."},
         {"tear_range", &MapFiles::tear_range, two_numbers(map_factor),
          "Factors where the tear map is 0 and where it is 1; between, in proportion."},
+        {"friction", &MapFiles::friction, without_default(text()),
+         "File. It scales the friction of each particle, on colliders and between layers."},
+        {"friction_range", &MapFiles::friction_range, two_numbers(map_friction_factor),
+         "Factors where the friction map is 0 and where it is 1; between, in proportion."},
+        {"thickness", &MapFiles::thickness, without_default(text()),
+         "File. It scales the thickness of each particle, and of self_collision: there each keeps 0.1 to 1 times the "
+         "grid's smaller spacing, and two layers the mean of theirs where they are nearest."},
+        {"thickness_range", &MapFiles::thickness_range, two_numbers(map_factor),
+         "Factors where the thickness map is 0 and where it is 1; between, in proportion."},
     }};
 
 /// Reads the maps' names; the rule of the cloth, which knows the grid, reads the files.
@@ -228,9 +240,14 @@ const Object<Cloth> cloth{
          "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "
          "[frames, rows, columns, 3], float32 or float64), .npz (its array positions, as drape writes it), .obj (a "
          "vertex for each particle, row by row) or .pc2; of several frames the last. At rest the cloth is still flat "
-         "and of its size. It starts without speed, or with velocity or velocities. A relative name is looked for "
+         "and of its size, unless rest says otherwise. It starts without speed, or with velocity or velocities. A "
+         "relative name is looked for "
          "beside the scene "
          "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
+        {"rest", &Cloth::rest, choice<Rest>(rest_spellings),
+         "Where the springs along threads and diagonals are at rest. flat: on the flat cloth of this size. start: in "
+         "the shape of the file start, whose springs are 1/4 to 4 times as long as the flat cloth's. Their constants, "
+         "mass and bending are those of flat cloth either way: what is curved at rest still bends to become flat."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},
@@ -261,7 +278,7 @@ const Object<Cloth> cloth{
          "What the cloth bears before it tears. Absent: whatever pulls at it. A tear is a line: it goes on from where "
          "the cloth is torn or cut, and only in a piece where none goes on a new one begins."},
         {"maps", Value<MapFiles>(maps).text, read_maps,
-         "Holes, stiffness, density and strength from pictures. Absent: none."},
+         "Holes, stiffness, density, strength, friction and thickness from pictures. Absent: none."},
         {"holes", &Cloth::holes, list<IndexBox>(particles, "an array of boxes", 0, 1'000'000),
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
         {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),

@@ -30,18 +30,21 @@ void note_fabric(const SceneNode& cloth);
 
 /// A map scales by factors of this range.
 inline constexpr Range map_factor{1e-3, 1e3, false};
+/// A map of friction may make parts of a cloth slip.
+inline constexpr Range map_friction_factor{0, 1e3, false};
 
 /// The files that a cloth's maps are in, and their ranges; an empty name: there is none.
 struct MapFiles {
-    std::string holes, stiffness, density, tear;
+    std::string holes, stiffness, density, tear, friction, thickness;
     /// Factors where a map is dark, and light.
-    std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1}, tear_range{0.1, 1};
+    std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1}, tear_range{0.1, 1}, friction_range{0.1, 1},
+        thickness_range{0.1, 1};
 };
 /// Reads the start of a cloth whose grid and size are known, from the file that it names.
 bool take_start(const Members& members, Cloth& cloth);
 /// Reads likewise the velocities with which it starts.
 bool take_velocities(const Members& members, Cloth& cloth);
-/// Reads the maps of a cloth whose grid is known: holes become boxes, the others factors of cells.
+/// Reads the maps of a cloth whose grid is known: holes become boxes, the others factors of cells or particles.
 bool take_maps(const Members& members, Cloth& cloth);
 
 // The borders and corners belong to a grid whose last column and row are 1.

@@ -270,6 +270,7 @@ Vec3 start_normal(const Cloth& cloth) {
 
 double start_strain(const Cloth& cloth) {
     double strain = 0;
+    if (cloth.rest == Rest::start) return strain;
     if (!cloth.start.empty()) {
         for (std::size_t axis = 0; axis < 2; ++axis)
             for_springs(cloth, axis, [&](double ratio) { strain = std::max(strain, std::abs(ratio - 1)); });
@@ -326,6 +327,41 @@ std::string start_fault(const Cloth& cloth) {
     if (!(highest_triangle(cloth) > resolution(cloth, {}, {})))
         return "a shape with room between its particles, got triangles that are all thinner than single precision "
                "tells";
+    return {};
+}
+
+std::vector<std::array<double, 4>> rest_ratios(const Cloth& cloth) {
+    const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], cells = columns - 1;
+    std::vector<std::array<double, 4>> ratios(columns * rows, {1, 1, 1, 1});
+    if (cloth.rest == Rest::flat) return ratios;
+    const double dx = cloth.size[0] / static_cast<double>(cells), dy = cloth.size[1] / static_cast<double>(rows - 1);
+    const auto set = [&](std::size_t owner, std::size_t other, std::size_t direction, double flat) {
+        ratios[owner][direction] = length(minus(cloth.start[other], cloth.start[owner])) / flat;
+    };
+    const std::vector<bool> missing = missing_cells(cloth);
+    for (std::size_t cell = 0; cell < missing.size(); ++cell) {
+        if (missing[cell]) continue;
+        const std::size_t first = cell / cells * columns + cell % cells, below = first + columns;
+        set(first, first + 1, 0, dx);
+        set(below, below + 1, 0, dx);
+        set(first, below, 1, dy);
+        set(first + 1, below + 1, 1, dy);
+        set(first, below + 1, 2, std::hypot(dx, dy));
+        set(first + 1, below, 3, std::hypot(dx, dy));
+    }
+    return ratios;
+}
+
+std::string rest_fault(const Cloth& cloth) {
+    constexpr double most = 4;
+    const std::vector<std::array<double, 4>> ratios = rest_ratios(cloth);
+    for (std::size_t i = 0; i < ratios.size(); ++i)
+        for (const double ratio : ratios[i])
+            if (!(ratio >= 1 / most && ratio <= most))
+                return fmt::format(
+                    "springs between {:g} and {:g} times as long as on flat cloth (/rest is \"start\"), got {:.4g} "
+                    "times at particle [{}, {}]",
+                    1 / most, most, ratio, i % cloth.grid[0], i / cloth.grid[0]);
     return {};
 }
 

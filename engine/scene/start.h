@@ -1,6 +1,7 @@
 // Finds where the particles of a cloth start.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,12 @@ struct StartRatios {
     double mean = 1, largest = 1;
 };
 StartRatios start_ratios(const Cloth& cloth, std::size_t axis);
+
+/// Returns by particle the lengths that the springs to its right, below it, and below it on the right and the left have
+/// at rest over those of flat cloth: 1 unless the cloth rests as it starts, and where the grid or a hole has no spring.
+std::vector<std::array<double, 4>> rest_ratios(const Cloth& cloth);
+/// Returns what is wrong with a given shape as one of rest, to follow "expected". Empty: nothing.
+std::string rest_fault(const Cloth& cloth);
 
 /// Returns what is wrong with a given shape, to follow "expected": not a place for every particle, one that is no
 /// number, two particles in one place, triangles that are all too thin. Empty: nothing.

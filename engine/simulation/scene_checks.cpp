@@ -32,10 +32,27 @@ bool are_keys(const std::vector<Key>& keys) {
     return std::ranges::all_of(keys, fits) && std::ranges::adjacent_find(keys, not_before) == keys.end();
 }
 
-/// Returns whether there are no factors, or one for every cell, between the two.
-bool has_factors(const Cloth& cloth, const std::vector<float>& factors, float least, float most) {
-    return factors.empty() || (factors.size() == std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1) &&
+/// Returns whether there are no factors, or so many, between the two.
+bool has_factors(std::size_t count, const std::vector<float>& factors, float least, float most) {
+    return factors.empty() || (factors.size() == count &&
                                std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
+}
+
+/// Says which maps of a cloth are none of its grid, or have values that no map has.
+template <class Expect>
+void check_maps(const Cloth& cloth, const std::string& at, const Expect& expect) {
+    const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1),
+                      particles = std::size_t{cloth.grid[0]} * cloth.grid[1];
+    expect(has_factors(cells, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
+           "a factor of at most 1, and not 0, for every cell");
+    expect(has_factors(cells, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
+           "a factor of at least 1 for every cell");
+    expect(has_factors(cells, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
+           "a factor above 0 for every cell");
+    expect(has_factors(particles, cloth.particle_friction, 0, 0x1p20f), at + "/particle_friction",
+           "a factor of at least 0 for every particle");
+    expect(has_factors(particles, cloth.particle_thickness, 0, 1), at + "/particle_thickness",
+           "a factor from 0 to 1 for every particle");
 }
 
 /// Returns whether what a cloth bears is a limit that its springs can come to.
@@ -79,17 +96,12 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
         if (!cloth.start.empty()) expect(start_fault(cloth).empty(), at + "/start", start_fault(cloth).c_str());
         if (!cloth.velocities.empty())
             expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
-        expect(has_factors(cloth, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
-               "a factor of at most 1, and not 0, for every cell");
         expect(
             are_keys(cloth.stiffness_keys) &&
                 (cloth.stiffness_keys.empty() || (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension))),
             at + "/stiffness_keys",
             "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor torn by a tension");
-        expect(has_factors(cloth, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
-               "a factor of at least 1 for every cell");
-        expect(has_factors(cloth, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
-               "a factor above 0 for every cell");
+        check_maps(cloth, at, expect);
         expect(!cloth.tear || bears(cloth), at + "/tear",
                "either a strain or a tension above 0, of springs that are not rigid");
     }

@@ -350,8 +350,10 @@ void ClothSolver::add_tension(graph::Graph& graph, ClothState& state) {
     const Grid& grid = state.model->grid;
     const std::vector<graph::PushConstants> each =
         pushes_of(state, *run_, [](const ClothModel& cloth) { return *cloth.scheme.gathered_tension; });
-    graph::Handle own = own_constants(graph, state, "tension.comp", "tension", each);
-    add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get("tension.comp", own.valid()),
+    const std::string module = vulkan::variant_name("tension.comp", {{"masked", state.own_rest() != 0}});
+    graph::Handle own = own_constants(graph, state, module, "tension", each);
+    const auto value = [&](std::string_view) { return state.own_rest(); };
+    add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get(module, value, own.valid()),
                      each.front(), {grid.columns(), grid.rows(), state.count()},
                      {&state, nullptr, {}, {{"constants", &own}}});
 }

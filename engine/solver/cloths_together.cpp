@@ -16,7 +16,8 @@ using graph::Lifetime;
 namespace {
 
 /// Lists that cloths together have one after the other in one buffer.
-constexpr Field joined_lists[] = {Field::nested_boxes, Field::tethers, Field::pinned_particles, Field::pin_motions};
+constexpr Field joined_lists[] = {Field::nested_boxes, Field::tethers, Field::skin, Field::pinned_particles,
+                                  Field::pin_motions};
 
 /// Returns a cloth's pinned particles with texel and motion counted over all cloths.
 std::vector<glsl::PinnedParticle> placed_pins(const ClothModel& cloth, int first_row, int first_pin) {

@@ -45,6 +45,8 @@ struct ClothState {
     std::map<std::string, graph::Handle> constant_buffers;
     /// Whether spring shares and cells are images.
     bool masked() const { return topology->masked(); }
+    /// Whether springs have lengths of their own at rest (shaders/include/rest_length.h).
+    std::uint32_t own_rest() const { return model->rest_scales.empty() ? 0 : 1; }
     /// Makes the spare images the state, and the state's the spare ones.
     void turn();
     /// Makes the spare displacement the displacement.

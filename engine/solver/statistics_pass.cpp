@@ -25,7 +25,10 @@ graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState
     const std::vector<graph::PushConstants> each =
         pushes_of(state, model, [&](const ClothModel& cloth) { return statistics_push(model, cloth); });
     graph::Handle own = own_constants(graph, state, module, "statistics", each);
-    const auto value = [&](std::string_view name) { return scene_constant(model, name).value(); };
+    const auto value = [&](std::string_view name) {
+        if (name == "has_skin") return std::uint32_t{state[Field::skin].valid()};
+        return name == "own_rest" ? std::uint32_t{state.own_rest()} : scene_constant(model, name).value();
+    };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     graph::Handle records = graph.buffer<glsl::StatisticsRecord>(state.name + "/statistics of columns",
                                                                  partial_count(state.model->grid) * state.count(),

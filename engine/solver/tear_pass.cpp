@@ -16,7 +16,8 @@ void add_tear(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
                                        grid.rows(), VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     graph::Handle count = add_cleared_count(graph, state.pass_name("tear count clear", "tear"), tear_count_name(model));
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("tear.comp", {{"masked", state.masked()}}));
+        pipelines.get(vulkan::variant_name("tear.comp", {{"masked", state.masked()}}),
+                      [&](std::string_view) { return state.own_rest(); });
     add_compute_pass(graph, state.pass_name("tear", "tear"), pipeline, tear_push(model), {grid.columns(), grid.rows()},
                      {.cloth = &state, .own = {{"tear_loads", &loads}, {"count", &count}}});
 }

@@ -252,7 +252,8 @@ double deepest(const SceneRun& run, const Collider& collider) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
                 const Vec3 x = run.at(frame, cloth, particle);
                 if (length(minus(x, pose.center)) > reach + thickness) continue;  // spares the costly distance
-                depth = std::max(depth, (thickness - surface_distance(now, pose, x)) / size);
+                const double own = thickness * double{thickness_factor(run.scene.cloths[cloth], particle)};
+                depth = std::max(depth, (own - surface_distance(now, pose, x)) / size);
             }
         }
     }

@@ -1,6 +1,7 @@
 // Contact of a particle with every collider of the scene. The includer calls read_colliders before anything else, and
 // has GL_EXT_control_flow_attributes.
 #include "include/colliders.h"
+#include "include/skin.h"
 
 /// Records of at most this many colliders are read before anything has branched: the default device loads them once
 /// there, but anew for every particle and number by number elsewhere (docs/devices.md). Loops over them are unrolled,
@@ -36,7 +37,10 @@ vec4 collider_ball(int first, int i, float length, float thickness) {
     int texel = (first + i) * collider_texel_count, kind = kind_of_collider(i);
     vec3 size = imageLoad(collider_texels, texel + collider_shape_texel).xyz;
     float motion = imageLoad(collider_texels, texel + collider_motion_texel).w;
-    float reach = length < 0.0f ? thickness : way_reach(kind, size, length, motion, thickness);
+    // Where the cloth is thinner, shorter ways are long (way_reach).
+    bool far = length >= 0.0f && goes_far(kind, size, length, motion, has_skin ? 0.0f : thickness);
+    precise float behind = (most_way(length, motion) + thickness) * 2.0f;
+    float reach = far ? behind : thickness;
     precise float radius = bounding_radius(kind, size) + (reach - thickness);
 #ifdef MESHES
     if (kind == kind_mesh) {

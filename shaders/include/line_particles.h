@@ -1,6 +1,8 @@
 // Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
 // `displacement_in`, `tension_in`, `line_control` and, where MASKED, `spring_shares`, the push constants (LinePush) and
 // `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
+#include "include/rest_length.h"
+
 /// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in
 /// each of its rounds. For the same reason only stores in the loops below branch.
 struct Line {
@@ -52,11 +54,13 @@ LineParticle particle_before(Line line, LineParticle particle) {
 
 vec3 filtered(LineParticle particle, vec3 delta) { return moved_by(particle.moved.xyz, delta, 1.0f); }
 
+float rest_of(Line line, ivec2 first) { return length_at_rest(line.rest_length, first, line.channel); }
+
 float tension_of(Line line, ivec2 first) { return tension_in_use(LOAD(tension_in, first).x, line.per_followed); }
 
 float tension_per_length_of(Line line, LineParticle first, LineParticle second) {
     precise vec3 start_edge = second.position.xyz - first.position.xyz;
-    return tension_per_length(tension_of(line, first.at), start_edge, line.rest_length);
+    return tension_per_length(tension_of(line, first.at), start_edge, rest_of(line, first.at));
 }
 
 vec3 start_edge_of(LineParticle first, LineParticle second) {
@@ -75,5 +79,5 @@ float filtered_tension_of(Line line, LineParticle first, LineParticle second, Li
 
 LineSpring spring_between(Line line, LineParticle first, vec3 moved_first, LineParticle second, vec3 moved_second) {
     return line_spring(spring_edge(first.position.xyz, second.position.xyz, moved_first, moved_second),
-                       line.rest_length);
+                       rest_of(line, first.at));
 }

@@ -23,6 +23,7 @@ coherent SCALAR_OUT(13, TensionDownLeftOut, tension_shear_down_left_out);
 layout(set = 0, binding = 14, rgba32f) uniform readonly image2D spring_shares;
 #endif
 layout(set = 0, binding = 15, r32ui) uniform readonly uimage2D line_control;
+#include "include/rest_length.h"
 
 /// A line of a direction within a box.
 struct NestedLine {
@@ -82,7 +83,7 @@ NestedParticle next_particle(NestedLine line, NestedParticle particle, ivec2 ste
 LineSpring spring_between(NestedLine line, NestedParticle first, NestedParticle second) {
     return line_spring(
         spring_edge(first.position.xyz, second.position.xyz, first.displacement.xyz, second.displacement.xyz),
-        line.rest_length);
+        length_at_rest(line.rest_length, first.at, line.direction));
 }
 
 /// Returns a line of a direction that lacks its index and its share.

@@ -38,16 +38,36 @@ SHARED vec4 self_corner_masses(bool edges, SelfCloth one, SelfCloth other, vec4 
     return masses;
 }
 
+/// Returns the thickness that two primitives keep where they are nearest to each other, the mean of theirs there.
+/// `corners`: those of the particles; `weights`: their gap's.
+SHARED float self_thickness_there(vec4 weights, vec4 corners) {
+    precise float sum = ((abs(weights.x) * corners.x + abs(weights.y) * corners.y) + abs(weights.z) * corners.z) +
+                        abs(weights.w) * corners.w;
+    precise float mean = sum * 0.5f;
+    return mean;
+}
+
+/// Returns the friction there. `corners`: the square roots of the particles' coefficients.
+SHARED float self_friction_there(bool edges, vec4 weights, vec4 corners) {
+    precise float a = abs(weights.x) * corners.x;
+    precise float b = abs(weights.y) * corners.y;
+    precise float rest = abs(weights.z) * corners.z + abs(weights.w) * corners.w;
+    precise float of_edges = (a + b) * rest;
+    precise float of_point = a * (b + rest);
+    return edges ? of_edges : of_point;
+}
+
 SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
     precise float mean = sqrt(one.friction * other.friction);
     return self_same_cloth(one, other) ? one.friction : mean;
 }
 
-/// The thickness that a pair keeps. Primitives of one cloth that are nearer than two thicknesses in it when it is flat
-/// keep half of that distance, so that contact does not stiffen a cloth pushed together in its plane. `a` to `d`:
-/// columns and rows of the particles; `one`, `other`: the cloths of the first and of the last.
-SHARED float self_pair_thickness(SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c, ivec2 d) {
-    float thickness = self_mean_thickness(one, other);
+/// The thickness that a pair keeps, where `thickness` is that of its two sides. Primitives of one cloth that are nearer
+/// than two thicknesses in it when it is flat keep half of that distance, so that contact does not stiffen a cloth
+/// pushed together in its plane. `a` to `d`: columns and rows of the particles; `one`, `other`: the cloths of the first
+/// and of the last.
+SHARED float self_pair_thickness(float thickness, SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c,
+                                 ivec2 d) {
     int columns = b.x - a.x, rows = b.y - a.y;
     if (edges) {
         columns = c.x - a.x;

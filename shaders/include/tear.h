@@ -11,11 +11,12 @@ SHARED float balancing_strain(vec3 first, vec3 second, float rest_length, float 
     return balancing_tension(strain, compression);
 }
 
-/// Strains of the diagonals of a cell with the corners a b over c d, by their shares: a d and b c.
-SHARED float diagonal_strains(vec3 a, vec3 b, vec3 c, vec3 d, float share_down_right, float share_down_left,
-                              float rest_length, float compression) {
-    precise float sum = share_down_right * balancing_strain(a, d, rest_length, compression) +
-                        share_down_left * balancing_strain(b, c, rest_length, compression);
+/// Strains of the diagonals of a cell with the corners a b over c d, by their shares: a d and b c, whose lengths at
+/// rest are `rest`, m.
+SHARED float diagonal_strains(vec3 a, vec3 b, vec3 c, vec3 d, float share_down_right, float share_down_left, vec2 rest,
+                              float compression) {
+    precise float sum = share_down_right * balancing_strain(a, d, rest.x, compression) +
+                        share_down_left * balancing_strain(b, c, rest.y, compression);
     return sum;
 }
 

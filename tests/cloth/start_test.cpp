@@ -133,5 +133,27 @@ TEST(StartTest, TheWatchKnowsWhatTheStartStrains) {
     EXPECT_EQ(criterion(stretched, long_after), "stretch error, RMS");
 }
 
+/// Contact takes particles to be no farther apart than the springs are long at rest, the watch cloth to be no smaller.
+TEST(StartTest, AClothThatRestsAsItStartsIsOfThatSize) {
+    for (const double scale : {0.5, 2.0}) {
+        SceneDescription scene = scene_with({1, 1});
+        Cloth& cloth = scene.cloths[0];
+        cloth.self_collision.emplace();
+        const SimulationModel flat(scene);
+        for (const glsl::vec4& at : flat.cloths[0].position) cloth.start.push_back({scale * at.x, scale * at.y, 0});
+        cloth.placement = {};
+        cloth.rest = Rest::start;
+        const SimulationModel model(scene);
+        EXPECT_TRUE(model.cloths[0].starts_masked);
+        EXPECT_FLOAT_EQ(model.cloths[0].rest_length(0.25f, 0, 0), static_cast<float>(0.25 * scale));
+        EXPECT_FLOAT_EQ(model.cloths[0].reach(), flat.cloths[0].reach() * std::max(1.0f, static_cast<float>(scale)));
+        const auto &contact = model.self_contact->cloths[0], &before = flat.self_contact->cloths[0];
+        const auto least = static_cast<float>(std::min(1.0, scale));
+        EXPECT_FLOAT_EQ(contact.spacing.x, least * before.spacing.x);
+        EXPECT_FLOAT_EQ(contact.spacing.y, least * before.spacing.y);
+        EXPECT_FLOAT_EQ(contact.least_flat, least * before.least_flat);
+    }
+}
+
 }  // namespace
 }  // namespace drape

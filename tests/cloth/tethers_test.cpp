@@ -72,5 +72,14 @@ TEST(TethersTest, AModelHasThemWhereTheyAreAskedForAndSaysWhyNot) {
     EXPECT_EQ(tether_give(scene.cloths[0], scene.gravity), 0);
 }
 
+TEST(TethersTest, FollowAShapeOfRest) {
+    const Grid grid(3, 2);
+    const double cell[2] = {1, 1};
+    const std::vector<glsl::vec4> scales(6, {1.5f, 1, 2, 2});
+    const auto tethers = find_tethers(grid, cell, {test::pin_box(0, 0, 0, 0)}, 0, scales);
+    EXPECT_FLOAT_EQ(tethers[2].length_a, 3);
+    EXPECT_FLOAT_EQ(tethers[5].length_a, 4) << "no diagonal is shorter";
+}
+
 }  // namespace
 }  // namespace drape

@@ -50,6 +50,13 @@ TEST(TogetherTest, ClothsOfOneGridAndItsHolesAreAlike) {
     EXPECT_EQ(cloths_alike(scene), (Lists{{0, 1, 5}, {2, 4}}));
 }
 
+TEST(TogetherTest, ClothsWithMapsOfContactAreAlike) {
+    SceneDescription scene = sheets(4);
+    scene.cloths[1].particle_friction.assign(63, 2);
+    scene.cloths[3].particle_thickness.assign(63, 0.5f);
+    EXPECT_EQ(cloths_alike(scene), (Lists{{0, 2}, {1, 3}}));
+}
+
 TEST(TogetherTest, NumbersAreTheSameWhateverTheStateHolds) {
     const SceneDescription scene = sheets(3);
     EXPECT_TRUE(have_same_numbers(scene.cloths[0], scene.cloths[2]));

@@ -142,6 +142,16 @@ SceneDescription weakened_lines() {
     return scene;
 }
 
+/// Gives particles of a scene's cloths frictions and thicknesses of their own.
+SceneDescription with_maps(SceneDescription scene) {
+    for (Cloth& cloth : scene.cloths)
+        for (std::uint32_t particle = 0; particle < cloth.grid[0] * cloth.grid[1]; ++particle) {
+            cloth.particle_friction.push_back(0.1f * static_cast<float>(particle % 13));
+            cloth.particle_thickness.push_back(0.75f + 0.05f * static_cast<float>(particle % 6));
+        }
+    return scene;
+}
+
 /// Two that started through each other, and a third that touches one of them.
 SceneDescription parting(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = crossed(method, substeps);
@@ -176,6 +186,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"LonePins", around_lone_pins(false), 5},
         {"LonePinsWithHoles", around_lone_pins(true), 5},
         {"ColliderEdgesAndTethers", over_boxes(), 8},
+        {"ColliderEdgesWithMaps", with_maps(over_boxes()), 8},
         {"SeveralRelaxed", several(relax, 4), 5},
         {"SeveralLine", several(line, 4), 5},
         {"SeveralExplicit", several(explicit_steps, 12), 5},
@@ -184,6 +195,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"ContactExplicit", crumpling(explicit_steps, 40), 16},
         {"ContactLine", crumpling(line, 10), 16},
         {"ContactOfLayers", layers(line, 6), 12},
+        {"ContactOfLayersWithMaps", with_maps(layers(line, 6)), 12},
         {"ContactParting", parting(line, 5), 0},
     };
     return scenes;

@@ -163,6 +163,10 @@ TEST_F(EnsembleTest, OfGivenStartsAndMaps) {
         cloth.cell_stiffness.push_back(0.25f + 0.75f * static_cast<float>(cell % 7) / 6);
         cloth.cell_density.push_back(1 + static_cast<float>(cell % 5));
     }
+    for (std::uint32_t particle = 0; particle < cloth.grid[0] * cloth.grid[1]; ++particle) {
+        cloth.particle_friction.push_back(static_cast<float>(particle % 4));
+        cloth.particle_thickness.push_back(1.0f / static_cast<float>(1 + particle % 3));
+    }
     std::vector<SceneDescription> members = drawn(scene, 4, seed);
     for (std::size_t k = 0; k < members.size(); ++k)
         for (std::uint32_t i = 0; i < cloth.grid[0] * cloth.grid[1]; ++i) {
@@ -172,6 +176,9 @@ TEST_F(EnsembleTest, OfGivenStartsAndMaps) {
         }
     expect_each_as_alone(members, 6, true);
     members[2].cloths[0].cell_density[3] = 9;
+    EXPECT_THROW(Ensemble(members, {}, library_device()), Error);
+    members[2] = members[0];
+    members[2].cloths[0].particle_thickness[3] = 0.875f;
     EXPECT_THROW(Ensemble(members, {}, library_device()), Error);
 }
 
@@ -248,6 +255,25 @@ TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
         SCOPED_TRACE(overrides.front());
         expect_each_as_alone(drawn(scene_of(overrides), 3, seed), 6, false);
     }
+}
+
+/// Each has a shape of its own; one that is flat at rest cannot be among them.
+TEST_F(EnsembleTest, OfMembersThatRestAsTheyStart) {
+    std::vector<SceneDescription> members = drawn(scene_of(), 3, seed);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Cloth& cloth = members[k].cloths[0];
+        const double height = 0.03 + 0.02 * static_cast<double>(k);
+        for (std::uint32_t row = 0; row < 12; ++row)
+            for (std::uint32_t column = 0; column < 17; ++column)
+                cloth.start.push_back(
+                    {0.05 * column - 0.4, 0.9 - 0.04 * row + height * std::sin(0.6 * column), 0.04 * row});
+        cloth.placement = {};
+        cloth.rest = Rest::start;
+    }
+    expect_each_as_alone(members, 6, true);
+    members[1].cloths[0].rest = Rest::flat;
+    EXPECT_THAT([&] { Ensemble(members, {}, library_device()); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("/cloths/0/rest is flat, not start")));
 }
 
 TEST_F(EnsembleTest, TheNumberOfPassesIsThatOfOneMember) {

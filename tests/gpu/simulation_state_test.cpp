@@ -245,6 +245,12 @@ const std::string on_what_deforms = R"({"time": {"fps": 60, "frames": 41}, "imag
 const std::string deforming_by_auto = with_method(on_what_deforms, "\"auto\"");
 const std::string deforming_by_lines = with_method(on_what_deforms, "\"line\", \"substeps\": 4");
 
+/// It hangs by a corner.
+const std::string resting_as_it_starts = R"({"time": {"frames": 25},
+  "cloths": [{"grid": [3, 5], "start": ")" DRAPE_SOURCE_DIR R"(/tests/scene/given/shape.obj", "rest": "start",
+              "stiffness": {"stretch": 200, "shear": 50}, "pins": [{"at": [0, 0]}]}],
+  "solver": {"method": "line", "substeps": 4}})";
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SimulationStateTest,
     testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene},
@@ -256,7 +262,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"WeatherByLines", weather_by_lines.c_str()}, Case{"PassedByLines", passed_by_lines.c_str()},
                     Case{"PassedByAuto", passed_by_auto.c_str()},
                     Case{"DeformingByAuto", deforming_by_auto.c_str(), true},
-                    Case{"DeformingByLines", deforming_by_lines.c_str(), true}),
+                    Case{"DeformingByLines", deforming_by_lines.c_str(), true},
+                    Case{"RestingAsItStarts", resting_as_it_starts.c_str()}),
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {

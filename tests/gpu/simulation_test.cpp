@@ -266,6 +266,11 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
     refused("/cloths/0/velocities", [](SceneDescription& scene) { scene.cloths[0].velocities.resize(7); });
     refused("/cloths/0/cell_stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
     refused("/cloths/0/cell_tear", [](SceneDescription& scene) { scene.cloths[0].cell_tear = {1, 0}; });
+    refused("/cloths/0/particle_friction", [](SceneDescription& scene) { scene.cloths[0].particle_friction = {1}; });
+    refused("/cloths/0/particle_thickness", [](SceneDescription& scene) {
+        const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
+        scene.cloths[0].particle_thickness.assign(std::size_t{grid[0]} * grid[1], 1.5f);
+    });
     refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{}; });
     refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{0.1, 5}; });
     refused("/cloths/0/tear", [](SceneDescription& scene) { scene.cloths[0].tear = Tear{-1, {}}; });

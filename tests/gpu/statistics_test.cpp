@@ -12,6 +12,7 @@
 #include "cloth/texels.h"
 #include "device_run.h"
 #include "gpu_test.h"
+#include "plain_statistics.h"
 #include "run/run_statistics.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
@@ -88,87 +89,6 @@ TwinCloth crumpled_state(const SimulationModel& model, float stretch, float nois
     return state;
 }
 
-struct Difference {
-    double x, y, z;
-    double length() const { return std::hypot(x, y, z); }
-};
-
-Difference difference(const vec4& a, const vec4& b) {
-    return {double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z)};
-}
-
-/// Strain and elastic energy of the springs of `family`, spring by spring in double precision.
-StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& model, const TwinCloth& state,
-                              SpringFamily family, double& energy, double& squared_error, double& worst_error) {
-    const Stiffness& stiffness = scene.cloths[0].stiffness;
-    const double dx = model.spacing[0], dy = model.spacing[1];
-    StrainStatistics strain{0, 0, -1e300, 1e300};
-    for (std::size_t direction = 0; direction < 4; ++direction) {
-        if (spring_directions[direction].family != family) continue;
-        const auto [i, j] = spring_directions[direction].offset;
-        const double rest = std::hypot(i * dx, j * dy);
-        const double k = family == SpringFamily::shear ? stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)
-                                                       : stiffness.stretch * (j == 0 ? dy / dx : dx / dy);
-        for (int row = 0; row < model.grid.size().y; ++row)
-            for (int column = 0; column < model.grid.size().x; ++column) {
-                if (column + i < 0 || column + i >= model.grid.size().x || row + j >= model.grid.size().y) continue;
-                const vec4 shares =
-                    model.grid.spring_shares(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
-                const float all[] = {shares.x, shares.y, shares.z, shares.w};
-                if (all[direction] == 0) continue;
-                const double length = difference(state[Field::position][at(model.grid, {column, row})],
-                                                 state[Field::position][at(model.grid, {column + i, row + j})])
-                                          .length();
-                const double value = (length - rest) / rest;
-                ++strain.spring_count;
-                strain.rms += value * value;
-                strain.largest = std::max(strain.largest, value);
-                strain.smallest = std::min(strain.smallest, value);
-                const double acting = length < rest ? stiffness.compression : 1;
-                if (family == SpringFamily::stretch) {
-                    const double error =
-                        acting * value - state.tension(direction)[at(model.grid, {column, row})] / rest;
-                    squared_error += error * error;
-                    worst_error = std::max(worst_error, std::abs(error));
-                }
-                if (!stiffness.rigid) energy += 0.5 * k * acting * all[direction] * (length - rest) * (length - rest);
-            }
-    }
-    strain.rms = std::sqrt(strain.rms / strain.spring_count);
-    return strain;
-}
-
-/// Everything but penetration, evaluated plainly in double precision from the scene and the state.
-ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model, const TwinCloth& state) {
-    const ClothModel& cloth = model.cloths[0];
-    ClothStatistics plain;
-    double squared_error = 0;
-    plain.stretch = plain_strain(scene, cloth, state, SpringFamily::stretch, plain.elastic_energy, squared_error,
-                                 plain.stretch_error_max);
-    plain.stretch_error_rms = std::sqrt(squared_error / plain.stretch.spring_count);
-    plain.shear = plain_strain(scene, cloth, state, SpringFamily::shear, plain.elastic_energy, squared_error,
-                               plain.stretch_error_max);
-    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
-        const float weight = cloth.free_weight[i];
-        const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
-        const vec4 x = state[Field::position][i], d = state[Field::displacement][i], e = state[Field::end_excess][i];
-        const double speed =
-            std::hypot(double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)) /
-            cloth.substep_length;
-        const double at[] = {x.x, x.y, x.z};
-        plain.kinetic_energy += 0.5 * mass * speed * speed;
-        plain.mass += mass;
-        for (std::size_t k = 0; k < 3; ++k) {
-            plain.potential_energy -= mass * scene.gravity[k] * at[k];
-            plain.center_of_mass[k] += mass * at[k];
-        }
-        plain.largest_distance = std::max(plain.largest_distance, std::hypot(at[0], at[1], at[2]));
-        plain.largest_speed = std::max(plain.largest_speed, speed);
-    }
-    for (double& coordinate : plain.center_of_mass) coordinate /= plain.mass;
-    return plain;
-}
-
 void expect_relative(double value, double expected, const char* what, double floor = 0) {
     EXPECT_NEAR(value, expected, 1e-5 * std::abs(expected) + floor) << what;
 }
@@ -222,7 +142,7 @@ void compare(const SceneDescription& scene, const ModelOptions& options = {}, fl
     const float cell = static_cast<float>(std::min(model.cloths[0].spacing[0], model.cloths[0].spacing[1]));
     const TwinCloth state = crumpled_state(model, stretch, 0.1f * cell, 5);
     expect_plain(cloth_statistics(model, model.cloths[0], expect_same_record(model, state)),
-                 plain_statistics(scene, model, state));
+                 test::plain_statistics(scene, model, state));
 }
 
 TEST(StatisticsTest, SmallestGrid) { compare(soft_sheet(2, 2)); }
@@ -248,6 +168,27 @@ TEST(StatisticsTest, Holes) {
     EXPECT_LT(few.stretch.spring_count, many.stretch.spring_count);
 }
 
+std::vector<Vec3> wavy_start(const std::array<std::uint32_t, 2>& grid) {
+    std::vector<Vec3> start;
+    for (std::uint32_t row = 0; row < grid[1]; ++row)
+        for (std::uint32_t column = 0; column < grid[0]; ++column)
+            start.push_back({0.02 * column, 0.03 * std::sin(0.5 * column + 0.3 * row), 0.02 * row});
+    return start;
+}
+
+TEST(StatisticsTest, AClothThatRestsAsItStarts) {
+    SceneDescription scene = soft_sheet(65, 33);
+    Cloth& cloth = scene.cloths[0];
+    cloth.start = wavy_start(cloth.grid);
+    cloth.placement = {};
+    cloth.rest = Rest::start;
+    const SimulationModel model(scene);
+    const TwinCloth state = crumpled_state(model, 1.15f, 2e-3f, 5);
+    // Some springs are of nearly the length that they have at rest: the difference of two, each rounded to 24 bits.
+    expect_plain(cloth_statistics(model, model.cloths[0], expect_same_record(model, state)),
+                 test::plain_statistics(scene, model, state), 0x1p-22);
+}
+
 TEST(StatisticsTest, AMaskChangesNothingOnAWholeCloth) {
     const SceneDescription scene = soft_sheet(37, 20);
     const SimulationModel plain(scene), masked(scene, {.skip = false});
@@ -263,7 +204,7 @@ TEST(StatisticsTest, SmallStrainsUpToTheRoundingOfALength) {
     const SimulationModel model(scene);
     const TwinCloth state = crumpled_state(model, 1.001f, 0, 1);
     const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
-    const ClothStatistics plain = plain_statistics(scene, model, state);
+    const ClothStatistics plain = test::plain_statistics(scene, model, state);
     // A strain is the difference of two nearly equal lengths, each rounded to 24 bits.
     constexpr double rounding = 0x1p-22;
     expect_strain(statistics.stretch, plain.stretch, rounding);
@@ -392,6 +333,9 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
     Cloth second = scene.cloths[0];
     second.name = "second";
     second.grid = {24, 41};
+    second.start = wavy_start(second.grid);
+    second.placement = {};
+    second.rest = Rest::start;
     scene.cloths.push_back(second);
     const SimulationModel model(scene);
     FrameLoopOptions options;

@@ -64,5 +64,21 @@ TEST(StatisticsTest, OfClothsTogetherAreEachOnesOwn) {
         for (const bool unlike : {false, true}) expect_each_ones_own(three(method, unlike));
 }
 
+/// The lowest row alone has a thickness, another in each cloth, and hangs 0.01 m above a plane.
+TEST(StatisticsTest, PenetrationIsUnderTheThicknessThatEachClothsMapGives) {
+    SceneDescription scene = three(SolverMethod::line, false);
+    scene.colliders = {{Plane{{0, 1, 0}, -0.21}}};
+    const float factors[] = {1, 0.5f, 0.25f};
+    for (std::size_t k = 0; k < 3; ++k) {
+        scene.cloths[k].thickness = 0.08;
+        scene.cloths[k].particle_thickness.assign(70 * 11, 0);
+        std::fill_n(scene.cloths[k].particle_thickness.end() - 70, 70, factors[k]);
+    }
+    const std::vector<ClothStatistics> together = after_frames(scene, 0);
+    ASSERT_EQ(together.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(together[k].penetration.value(), 0.08 * double{factors[k]} - 0.01, 1e-6) << k;
+}
+
 }  // namespace
 }  // namespace drape

@@ -206,6 +206,20 @@ void expect_the_twins_bits(const SceneDescription& scene) {
 
 TEST_P(TornBy, TheTwinsBits) { expect_the_twins_bits(pulled_apart(GetParam())); }
 
+TEST(TearTest, ClothThatRestsAsItStartsHasTheTwinsBits) {
+    SceneDescription scene = pulled_apart(SolverMethod::line);
+    for (Cloth& cloth : scene.cloths) {
+        const double x = cloth.placement.origin[0];
+        for (std::uint32_t row = 0; row < 20; ++row)
+            for (std::uint32_t column = 0; column < 24; ++column)
+                cloth.start.push_back(
+                    {x + 0.026 * column, -0.026 * row, 0.01 * std::sin(0.9 * column) * std::cos(0.7 * row)});
+        cloth.placement = {};
+        cloth.rest = Rest::start;
+    }
+    expect_the_twins_bits(scene);
+}
+
 TEST(TearTest, ClothThatMeetsItselfHasTheTwinsBits) {
     SceneDescription scene = pulled_apart(SolverMethod::line);
     for (Cloth& cloth : scene.cloths) cloth.self_collision = SelfCollision{};

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "support/meshes.h"
+#include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -43,6 +45,16 @@ void throw_apart(Cloth& cloth) {
         cloth.velocities.push_back({0.3 * std::sin(0.1 * particle), 0.01 * (particle % 7), 0.4 * std::cos(particle)});
 }
 
+/// Gives a cloth's particles frictions up to twice its own, and thicknesses down to nothing.
+void vary_skin(Cloth& cloth) {
+    cloth.particle_friction.clear();
+    cloth.particle_thickness.clear();
+    for (std::uint32_t particle = 0; particle < cloth.grid[0] * cloth.grid[1]; ++particle) {
+        cloth.particle_friction.push_back(2 * static_cast<float>(particle * 37 % 101) / 100.0f);
+        cloth.particle_thickness.push_back(static_cast<float>(particle * 53 % 97) / 96.0f);
+    }
+}
+
 constexpr SolverMethod methods[] = {SolverMethod::relax, SolverMethod::explicit_steps, SolverMethod::line};
 
 TEST(TwinGivenTest, AFoldedStart) {
@@ -65,11 +77,74 @@ TEST(TwinGivenTest, AVelocityOfEachParticle) {
     }
 }
 
+/// Each spring then has a length at rest of its own. The cloth is cut and hangs on pins that move and let go.
+TEST(TwinGivenTest, AFoldedStartThatIsAtRest) {
+    for (const SolverMethod method : methods)
+        for (const int iterations : {1, 2}) {
+            if (iterations == 2 && method == SolverMethod::explicit_steps) continue;
+            SceneDescription scene = test::everything();
+            scene.solver.method = method;
+            scene.solver.iterations = static_cast<std::uint32_t>(iterations);
+            scene.cloths[0].stiffness.bend = 1e-4;
+            fold(scene.cloths[0]);
+            scene.cloths[0].rest = Rest::start;
+            compare(scene);
+            if (method != SolverMethod::line) continue;
+            scene.colliders = {};  // of second order
+            compare(scene);
+        }
+}
+
+/// Grids that fill tiles and strips; their statistics, too.
+TEST(TwinGivenTest, AFoldedStartThatIsAtRestAlone) {
+    for (const SolverMethod method : methods)
+        for (const auto& grid : {std::pair{32u, 32u}, {49u, 25u}}) {
+            SceneDescription scene = test::thrown_sheet(grid, 8);
+            scene.solver.method = method;
+            fold(scene.cloths[0]);
+            scene.cloths[0].rest = Rest::start;
+            compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = method == SolverMethod::relax});
+        }
+}
+
+/// Those that rest as they start are simulated together, the flat one beside them.
+TEST(TwinGivenTest, ClothsTogetherOfWhichSomeRestAsTheyStart) {
+    SceneDescription scene = test::everything_in_lines();
+    for (const char* const name : {"second", "third"}) {
+        scene.cloths.push_back(scene.cloths[0]);
+        scene.cloths.back().name = name;
+        fold(scene.cloths.back());
+        scene.cloths.back().rest = Rest::start;
+    }
+    for (Vec3& at : scene.cloths[2].start) at[1] *= 1.5;
+    compare(scene);
+}
+
 TEST(TwinGivenTest, AFoldedStartThatMeetsItself) {
     SceneDescription scene = test::everything_in_lines();
     fold(scene.cloths[0]);
     scene.cloths[0].self_collision.emplace();
     EXPECT_GT(compare(scene).most_pairs, 0u);
+    scene.cloths[0].rest = Rest::start;
+    EXPECT_GT(compare(scene).most_pairs, 0u);
+}
+
+/// All that gives springs and particles numbers of their own acts at once.
+TEST(TwinGivenTest, AllThatDiffersAtOnce) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        Cloth& cloth = scene.cloths[0];
+        cloth.stiffness.bend = 1e-4;
+        fold(cloth);
+        cloth.rest = Rest::start;
+        cloth.stiffness_keys = {{0.004, 1}, {0.02, 0.25}, {0.1, 0.5}};
+        vary(cloth);
+        vary_skin(cloth);
+        compare(scene);
+        cloth.self_collision.emplace();
+        compare(scene);
+    }
 }
 
 TEST(TwinGivenTest, StiffnessAndDensityByCell) {
@@ -107,6 +182,61 @@ TEST(TwinGivenTest, StiffnessAndDensityByCellAlone) {
             vary(scene.cloths[0]);
             compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = method == SolverMethod::relax});
         }
+}
+
+TEST(TwinGivenTest, FrictionAndThicknessByParticle) {
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        scene.cloths[0].thickness = 0.02;
+        vary_skin(scene.cloths[0]);
+        compare(scene);
+        scene.colliders.push_back({test::mesh_of(test::box_mesh({0.1, 0.15, 0.1}), {0.1, -0.3, 0.1})});
+        compare(scene);
+        scene.cloths[0].contact = ContactOf::particles;
+        scene.cloths[0].thickness = 0.05;
+        compare(scene);
+    }
+}
+
+/// Small and fast colliders, more than are read early, are met on the particles' ways.
+TEST(TwinGivenTest, ThicknessByParticleOfClothThatGoesFar) {
+    SceneDescription scene = test::everything_in_lines();
+    scene.solver.substeps = 2;
+    scene.colliders.clear();
+    for (int k = 0; k < 12; ++k)
+        scene.colliders.push_back({Sphere{{-0.5 + 0.09 * k, -0.15, 0.08 * (k % 5) - 0.2}, 0.02 + 0.002 * k}});
+    scene.cloths[0].velocity = {0, -6, 0};
+    scene.cloths[0].thickness = 0.03;
+    vary_skin(scene.cloths[0]);
+    compare(scene);
+}
+
+TEST(TwinGivenTest, FrictionAndThicknessBetweenLayers) {
+    SceneDescription fold = test::fold(17, 0.5, SolverMethod::line, 16);
+    fold.cloths[0].velocity = {0, -4, 0};
+    vary_skin(fold.cloths[0]);
+    EXPECT_GT(compare(fold).most_pairs, 20u);
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps}) {
+        SceneDescription scene = test::layers(method, method == SolverMethod::line ? 16 : 40);
+        for (Cloth& cloth : scene.cloths) cloth.velocity = {0, -2, 0};
+        vary_skin(scene.cloths[1]);
+        EXPECT_GT(compare(scene).most_pairs, 20u);
+    }
+}
+
+TEST(TwinGivenTest, ClothsTogetherOfWhichEachHasItsOwnSkin) {
+    SceneDescription scene = test::everything_in_lines();
+    vary_skin(scene.cloths[0]);
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "second";
+    scene.cloths[1].friction = 0.7;
+    scene.cloths[1].particle_thickness.clear();
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[2].name = "third";
+    scene.cloths[2].thickness = 0.03;
+    scene.cloths[2].particle_friction.assign(scene.cloths[2].particle_friction.size(), 0.5f);
+    compare(scene);
 }
 
 TEST(TwinGivenTest, ClothsTogetherOfWhichEachHasItsOwnShape) {

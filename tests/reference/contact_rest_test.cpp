@@ -11,6 +11,7 @@
 #include "cloth/simulation_model.h"
 #include "drape/scene_reader.h"
 #include "reference/twin.h"
+#include "support/sheets.h"
 
 namespace drape {
 namespace {
@@ -44,6 +45,62 @@ SceneDescription scene_of(const Falling& falling, std::mt19937& random) {
         "solver": {"method": ")" +
                              falling.method + R"(", "substeps": )" + std::to_string(falling.substeps) + "}}";
     return parse_scene(text);
+}
+
+/// A sheet of 9 x 9 particles that lies on the ground, whose thickness grows along its rows from a quarter of
+/// `thickness`.
+SceneDescription wedge(double thickness) {
+    SceneDescription scene = test::sheet(9, 9, 0.4, 0.4, 16);
+    scene.colliders.push_back({Plane{}, 0.5});
+    Cloth& cloth = scene.cloths[0];
+    cloth.thickness = thickness;
+    cloth.damping = 2;
+    cloth.placement = {{-0.2, thickness, -0.2}, {1, 0, 0}, {0, 0, 1}};
+    for (int i = 0; i < 81; ++i) cloth.particle_thickness.push_back(0.25f + 0.75f * static_cast<float>(i % 9) / 8);
+    return scene;
+}
+
+double height(const Twin& twin, std::size_t cloth, std::size_t particle) {
+    return twin.cloth(cloth)[Field::position][particle].y;
+}
+
+TEST(ContactRestTest, ASheetLiesAtTheHeightsThatItsMapOfThicknessSays) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps}) {
+        SceneDescription scene = wedge(0.02);
+        scene.solver.method = method;
+        if (method == SolverMethod::explicit_steps) scene.solver.substeps = 60;
+        const SimulationModel model(scene);
+        Twin twin(model);
+        for (std::uint32_t frame = 1; frame <= 120; ++frame) twin.run_frame(frame);
+        double worst = 0;
+        for (std::size_t i = 0; i < 81; ++i)
+            worst = std::max(worst, std::abs(height(twin, 0, i) - 0.02 * scene.cloths[0].particle_thickness[i]));
+        std::printf("[ measured ] farthest from the map's height: %.2e m\n", worst);
+        EXPECT_LT(worst, 1e-6);
+    }
+}
+
+/// Layers keep the mean of their thicknesses, the upper one's from its map; nearer than 0.98 of it they are led apart.
+TEST(ContactRestTest, ASheetLiesOnAnotherAsHighAsItsMapOfThicknessSays) {
+    SceneDescription scene = wedge(0.02);
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[0].particle_thickness.clear();
+    scene.cloths[1].name = "upper";
+    scene.cloths[1].placement.origin[1] = 0.045;
+    scene.cloths[1].self_collision.emplace();
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 90; ++frame) twin.run_frame(frame);
+    double least = 2, most = 0;
+    for (std::size_t i = 0; i < 81; ++i) {
+        const double kept = 0.01 * (1 + double(scene.cloths[1].particle_thickness[i]));
+        const double ratio = (height(twin, 1, i) - height(twin, 0, i)) / kept;
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
+    }
+    std::printf("[ measured ] distances are %.4f to %.4f of what the map says\n", least, most);
+    EXPECT_GT(least, 0.97);
+    EXPECT_LT(most, 1.01);
 }
 
 /// Root mean square over all particles, m.

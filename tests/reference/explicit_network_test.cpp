@@ -60,6 +60,21 @@ TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForces) {
     }
 }
 
+TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForcesWhereTheClothRestsAsItStarts) {
+    SceneDescription scene = test::sheet(14, 11, 1.0, 0.6, 100);
+    scene.solver.method = SolverMethod::explicit_steps;
+    Cloth& cloth = scene.cloths[0];
+    for (int row = 0; row < 11; ++row)
+        for (int column = 0; column < 14; ++column)
+            cloth.start.push_back({0.08 * column, 0.1 * std::sin(0.8 * column + 0.3 * row), 0.05 * row});
+    cloth.rest = Rest::start;
+    cloth.holes = {{{9, 7}, {13, 10}}};
+    cloth.stiffness = {false, 80, 30, 0};
+    EXPECT_LE(force_error(scene), 1e-5);
+    const SpringNetwork network(scene, 0);
+    EXPECT_LE(network.spring_energy(cloth.start), 1e-20);
+}
+
 /// Cells are up to ten times as stiff and five times as heavy as others.
 TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForcesWhereCellsDiffer) {
     SceneDescription scene = test::sheet(14, 11, 1.0, 0.6, 100);

@@ -77,6 +77,62 @@ TEST(FrictionTest, TrianglesRubAsTheFormulaSays) {
     for (const double mu : {0.6, 1.0}) EXPECT_NEAR(slide(incline_of_triangles(mu)), 0, 1e-5) << "mu " << mu;
 }
 
+/// A row of cells is missing, so that the cloth is two pieces; a map gives each a friction of its own. The cloth's
+/// coefficient is that of the collider, so a pair's is in proportion to the square root of the factor.
+TEST(FrictionTest, AMapHoldsOnePieceAndLetsTheOtherSlide) {
+    for (const double factor : {0.0, 0.25, 0.5}) {
+        SceneDescription scene = incline(0.6);
+        Cloth& cloth = scene.cloths[0];
+        cloth.grid = {5, 8};
+        cloth.size = {0.4, 0.7};
+        cloth.holes = {{{0, 3}, {4, 4}}};
+        cloth.particle_friction.assign(40, 1);
+        std::fill_n(cloth.particle_friction.begin() + 20, 20, static_cast<float>(factor));
+        const SimulationModel model(scene);
+        Twin twin(model);
+        for (std::uint32_t frame = 1; frame <= 60; ++frame) twin.run_frame(frame);
+        const double expected = 0.5 * 9.81 * (std::sin(angle) - 0.6 * std::sqrt(factor) * std::cos(angle));
+        for (std::size_t particle = 0; particle < 40; ++particle) {
+            const glsl::vec4 start = model.cloths[0].position[particle], end = twin.cloth(0)[Field::position][particle];
+            const double slid = -(double(end.x) - double(start.x)) * std::cos(angle) -
+                                (double(end.y) - double(start.y)) * std::sin(angle);
+            EXPECT_NEAR(slid, particle < 20 ? 0 : expected, particle < 20 ? 5e-6 : 1e-4 * 9.81)
+                << "factor " << factor << " particle " << particle;
+        }
+    }
+}
+
+/// The same two pieces lie on a sheet that is held instead of a plane.
+TEST(FrictionTest, AMapHoldsOnePieceOnAClothAndLetsTheOtherSlide) {
+    SceneDescription scene = incline(0.8);
+    scene.colliders.clear();
+    Cloth& upper = scene.cloths[0];
+    upper.grid = {5, 8};
+    upper.size = {0.4, 0.7};
+    upper.holes = {{{0, 3}, {4, 4}}};
+    upper.particle_friction.assign(40, 1);
+    std::fill_n(upper.particle_friction.begin() + 20, 20, 0.0f);
+    upper.self_collision = SelfCollision{0.01, {}};
+    Cloth lower = test::sheet(13, 9, 1.2, 0.8, 16).cloths[0];
+    lower.name = "lower";
+    lower.friction = 0.8;
+    lower.thickness = 0.01;
+    lower.placement = upper.placement;
+    lower.placement.origin = {-0.77 * std::cos(angle), -0.77 * std::sin(angle), -0.05};
+    lower.pins = {test::pin_box(0, 0, 12, 8)};
+    scene.cloths.push_back(lower);
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 15; ++frame) twin.run_frame(frame);
+    const double expected = 0.5 * 9.81 * std::sin(angle) * 0.25 * 0.25;
+    for (std::size_t particle = 0; particle < 40; ++particle) {
+        const glsl::vec4 start = model.cloths[0].position[particle], end = twin.cloth(0)[Field::position][particle];
+        const double slid =
+            -(double(end.x) - double(start.x)) * std::cos(angle) - (double(end.y) - double(start.y)) * std::sin(angle);
+        EXPECT_NEAR(slid, particle < 20 ? 0 : expected, 1e-3) << "particle " << particle;
+    }
+}
+
 TEST(FrictionTest, ASurfaceThatMovesCarriesTheClothAlong) {
     SceneDescription scene = test::sheet(5, 5, 0.4, 0.4, 16);
     scene.time.frame_count = 61;

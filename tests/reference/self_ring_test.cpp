@@ -59,8 +59,8 @@ uint ruled_out(const Patch& patch) {
 
 bool is_listed(const Patch& patch, bool edges, glsl::uvec4 pair) {
     const auto texel = [](uint corner) { return glsl::self_texel(corner); };
-    const float kept = glsl::self_pair_thickness(patch.cloth, patch.cloth, edges, texel(pair.x), texel(pair.y),
-                                                 texel(pair.z), texel(pair.w));
+    const float kept = glsl::self_pair_thickness(patch.cloth.thickness, patch.cloth, patch.cloth, edges, texel(pair.x),
+                                                 texel(pair.y), texel(pair.z), texel(pair.w));
     const glsl::SelfGap gap = glsl::self_gap(edges, patch.corners(patch.at, pair));
     return glsl::self_listed_pair(edges, gap, patch.corners(patch.moves, pair), kept, patch.cloth.thickness);
 }

@@ -27,7 +27,7 @@ inline constexpr const char* full_scene =
               {"box": [[1, 2], [3, 4]]}],
      "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
     {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"},
-    {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "start": ")json" DRAPE_SOURCE_DIR
+    {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "rest": "start", "start": ")json" DRAPE_SOURCE_DIR
     R"json(/tests/scene/given/shape.obj",
      "velocities": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/velocities.npy"},
     {"name": "mapped", "grid": [5, 3], "placement": {"origin": [-9, 9, 9]},
@@ -35,7 +35,10 @@ inline constexpr const char* full_scene =
      "maps": {"holes": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png",
               "stiffness": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "stiffness_range": [0.5, 2],
               "density": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "density_range": [3, 0.5],
-              "tear": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "tear_range": [0.25, 1.5]}}],
+              "tear": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "tear_range": [0.25, 1.5],
+              "friction": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "friction_range": [0, 2],
+              "thickness": ")json" DRAPE_SOURCE_DIR
+    R"json(/tests/scene/given/cells.png", "thickness_range": [0.5, 2]}}],
   "colliders": {
     "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
                 "path": [{"t": 0}]}],

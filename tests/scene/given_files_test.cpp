@@ -101,6 +101,46 @@ TEST_F(GivenFiles, WhatIsWrongWithAStartIsSaidWhereItIsNamed) {
     EXPECT_THAT(errors(R"("start": "shape.npy")"), ElementsAre(HasSubstr("thinner than single precision tells")));
 }
 
+TEST_F(GivenFiles, AClothMayRestAsItStarts) {
+    put_start(wavy_sheet(4, 3, 0.5));
+    const SceneResult flat = read(R"("start": "shape.npy", "rest": "flat")");
+    ASSERT_TRUE(flat.scene);
+    EXPECT_GT(start_strain(flat.scene->cloths[0]), 0.07);
+    for (const std::array<double, 4>& ratios : rest_ratios(flat.scene->cloths[0]))
+        EXPECT_EQ(ratios, (std::array<double, 4>{1, 1, 1, 1}));
+    const SceneResult result = read(R"("start": "shape.npy", "rest": "start", "holes": [[[1, 0], [3, 1]]])");
+    ASSERT_TRUE(result.scene) << result.errors[0].text();
+    const Cloth& cloth = result.scene->cloths[0];
+    EXPECT_EQ(start_strain(cloth), 0);
+    EXPECT_NEAR(covering_radius(cloth), (1 + contact_stretch) * covering_radius(flat.scene->cloths[0]), 1e-9)
+        << "it may stretch from there, too";
+    const std::vector<std::array<double, 4>> ratios = rest_ratios(cloth);
+    // Heights are 0, 0.2 and 0.4 m in turn: those of neighbours differ by 0.2 or 0.4, across a cell by 0.4 or 0.
+    const double step = std::hypot(0.5, 0.2) / 0.5;
+    EXPECT_NEAR(ratios[0][0], step, 1e-6);
+    EXPECT_NEAR(ratios[0][1], step, 1e-6);
+    EXPECT_NEAR(ratios[0][2], std::hypot(0.5, 0.5, 0.4) / std::hypot(0.5, 0.5), 1e-6);
+    EXPECT_NEAR(ratios[1][3], 1, 1e-6);
+    EXPECT_EQ(ratios[1][0], 1) << "in a hole";
+    EXPECT_NEAR(ratios[5][0], std::hypot(0.5, 0.4) / 0.5, 1e-6) << "along its border";
+    EXPECT_EQ(ratios[2][2], 1) << "in a hole";
+    EXPECT_EQ(ratios[11][0], 1) << "beyond the grid";
+}
+
+TEST_F(GivenFiles, WhatIsWrongWithARestIsSaid) {
+    EXPECT_THAT(errors(R"("rest": "start")"),
+                ElementsAre(HasSubstr(":2:9: /cloths/0/rest: expected a file start beside rest \"start\", got none")));
+    EXPECT_THAT(errors(R"("rest": "curved")"), ElementsAre(HasSubstr("/cloths/0/rest: expected ")));
+    put_start_with(6, {5, 1, 0.5});
+    EXPECT_THAT(errors(R"("start": "shape.npy")"), IsEmpty());
+    EXPECT_THAT(errors(R"("start": "shape.npy", "rest": "start")"),
+                ElementsAre(AllOf(HasSubstr(":2:10: /cloths/0/start: expected springs between 0.25 and 4 times"),
+                                  HasSubstr("at particle [1, 0] in 'shape.npy'"))));
+    put_start(wavy_sheet(4, 3, 0.05));
+    EXPECT_THAT(errors(R"("start": "shape.npy", "rest": "start")"),
+                ElementsAre(HasSubstr("times at particle [0, 0] in 'shape.npy'")));
+}
+
 TEST_F(GivenFiles, VelocitiesAreReadAndWhatIsWrongWithThemIsSaid) {
     std::vector<float> values;
     for (int i = 0; i < 36; ++i) values.push_back(0.25f * static_cast<float>(i));
@@ -236,6 +276,50 @@ TEST_F(GivenFiles, ASeamBearsItsShare) {
                 ElementsAre(HasSubstr("/cloths/0/tear: expected a limit above the stretch error")));
     EXPECT_THAT(errors(R"("tear": {"strain": 0.5}, "maps": {"tear": "map.npy", "tear_range": [0, 1]})"),
                 ElementsAre(HasSubstr("/tear_range/0: expected a number in [0.001, 1000], got 0")));
+}
+
+/// The fixture's cloth has 4 x 3 particles.
+TEST_F(GivenFiles, FrictionAndThicknessAreOfParticles) {
+    const std::vector<double> values{0, 0.5, 1, 1, 0, 0.5, 1, 1, 0, 0.5, 1, 0.25};
+    write_text(folder_ / "map.npy", npy_of("<f8", "3, 4", values));
+    write_text(folder_ / "map.png", grey_png(1, {0, 255}));
+    const Cloth cloth = read(R"("friction": 0.4, "thickness": 0.01, "self_collision": {"thickness": 0.05},
+                "maps": {"friction": "map.npy", "friction_range": [0, 3],
+                         "thickness": "map.npy", "thickness_range": [2, 0.5]})")
+                            .scene->cloths[0];
+    EXPECT_EQ(cloth.friction, 0.4);
+    EXPECT_EQ(cloth.particle_friction, (std::vector<float>{0, 1.5f, 3, 3, 0, 1.5f, 3, 3, 0, 1.5f, 3, 0.75f}));
+    EXPECT_EQ(cloth.thickness, 0.02) << "the thickest particle's";
+    EXPECT_EQ(cloth.self_collision->thickness, 0.1);
+    EXPECT_EQ(cloth.particle_thickness,
+              (std::vector<float>{1, 0.625f, 0.25f, 0.25f, 1, 0.625f, 0.25f, 0.25f, 1, 0.625f, 0.25f, 0.8125f}));
+    EXPECT_EQ(least_thickness(cloth), 0.005);
+    // A picture of another size spans the cloth: its upper half is dark.
+    EXPECT_EQ(read(R"("maps": {"friction": "map.png", "friction_range": [0, 1]})").scene->cloths[0].particle_friction,
+              (std::vector<float>{0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f, 1, 1, 1, 1}));
+}
+
+TEST_F(GivenFiles, WhatIsWrongWithAMapOfParticlesIsSaidWhereItIsNamed) {
+    EXPECT_THAT(errors(R"("maps": {"friction": "none.png", "thickness": "x.gif"})"),
+                ElementsAre(AllOf(HasSubstr(":2:22: /cloths/0/maps/friction: cannot read"), HasSubstr("No such file")),
+                            HasSubstr("/cloths/0/maps/thickness: cannot read")));
+    for (const double value : {-0.25, 1.25, std::nan("")}) {
+        write_text(folder_ / "map.npy", npy_of("<f8", "1, 1", std::vector<double>{value}));
+        for (const std::string key : {"friction", "thickness"})
+            EXPECT_THAT(errors(R"("maps": {")" + key + R"(": "map.npy"})"),
+                        ElementsAre(HasSubstr("/cloths/0/maps/" + key + ": ")))
+                << value;
+    }
+    write_text(folder_ / "map.npy", npy_of("<f8", "1, 1, 1", std::vector<double>{1}));
+    EXPECT_THAT(errors(R"("maps": {"thickness": "map.npy"})"),
+                ElementsAre(HasSubstr("/cloths/0/maps/thickness: cannot read")));
+    write_text(folder_ / "map.png", grey_png(1, {9}));
+    EXPECT_THAT(errors(R"("maps": {"thickness": "map.png", "thickness_range": [0, 1]})"),
+                ElementsAre(HasSubstr("/thickness_range/0: expected a number in [0.001, 1000], got 0")));
+    EXPECT_THAT(errors(R"("maps": {"friction": "map.png", "friction_range": [0, -1]})"),
+                ElementsAre(HasSubstr("/friction_range/1: expected a number in [0, 1000], got -1")));
+    EXPECT_THAT(errors(R"("self_collision": {"thickness": 9}, "maps": {"thickness": "map.png"})"),
+                ElementsAre(HasSubstr("/self_collision/thickness: expected")));
 }
 
 TEST_F(GivenFiles, WhatIsWrongWithAMapIsSaidWhereItIsNamed) {

@@ -90,6 +90,14 @@ TEST(SceneValues, FilesOfTheFullScene) {
     EXPECT_EQ(mapped.areal_density, 0.5 * Cloth{}.areal_density) << "the lightest cell's";
     EXPECT_EQ(mapped.cell_density, (std::vector<float>{6, 1, 1, 1, 1, 4, 1, 6}));
     EXPECT_EQ(mapped.cell_tear, (std::vector<float>{0.25f, 1.5f, 1.5f, 1.5f, 1.5f, 0.75f, 1.5f, 0.25f}));
+    // Particles lie on the corners of its pixels.
+    EXPECT_EQ(mapped.particle_friction,
+              (std::vector<float>{0, 1, 2, 2, 2, 1, 1.2f, 1.7f, 1.5f, 1, 2, 1.4f, 1.4f, 1, 0}));
+    EXPECT_EQ(mapped.thickness, 2 * Cloth{}.thickness) << "the thickest particle's";
+    ASSERT_EQ(mapped.particle_thickness.size(), 15u);
+    EXPECT_EQ(mapped.particle_thickness[0], 0.25f);
+    EXPECT_EQ(mapped.particle_thickness[2], 1);
+    EXPECT_EQ(mapped.particle_thickness[8], 0.8125f);
 }
 
 TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {

@@ -164,6 +164,10 @@ enum class ContactOf { surface, particles };
 inline constexpr Spelling<ContactOf> contact_spellings[] = {{"surface", ContactOf::surface},
                                                             {"particles", ContactOf::particles}};
 
+/// In this shape no spring along threads or diagonals is stretched or pushed together.
+enum class Rest { flat, start };
+inline constexpr Spelling<Rest> rest_spellings[] = {{"flat", Rest::flat}, {"start", Rest::start}};
+
 /// A spring along a row or column ends once it bears more than this (engine/docs/physics.md 8). One of the two is
 /// given.
 struct Tear {
@@ -179,6 +183,7 @@ struct Cloth {
     Placement placement;
     /// m: where every particle starts, row by row. Empty: flat, as placed. Else `placement` has its defaults.
     std::vector<Vec3> start;
+    Rest rest = Rest::flat;      ///< `start` needs that
     double areal_density = 0.2;  ///< kg/m^2; where cells differ, of one with the factor 1
     Stiffness stiffness;
     /// Factors of all of the stiffness, at most 1, strictly increasing in time; empty: it stays (scene/weather.h).
@@ -196,6 +201,9 @@ struct Cloth {
     std::vector<float> cell_stiffness, cell_density;
     std::optional<Tear> tear;      ///< nothing: it holds whatever pulls at it
     std::vector<float> cell_tear;  ///< factors of what every cell bears, row by row; empty: 1
+    /// Factors of every particle, row by row; empty: 1. Those of the thickness, also of that between layers, are at
+    /// most 1, and the cloth's friction, also that between layers, is of a particle with the factor 1.
+    std::vector<float> particle_friction, particle_thickness;
     std::vector<Pin> pins;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;

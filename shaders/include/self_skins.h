@@ -1,0 +1,20 @@
+// How particles of the sheet meet each other, where a cloth has maps of that. The includer has include/self_cloths.h.
+layout(constant_id = 19) const bool has_skins = false;
+// By place; x: thickness kept between layers, m; y: square root of the friction coefficient.
+layout(set = 0, binding = 15, std430) readonly buffer Skins { vec2 skins[]; };
+
+vec2 skin_at(uint corner) { return skins[place_of(self_texel(corner))]; }
+
+/// Returns the thickness that a pair keeps, m, and its friction. `weights`: its gap's.
+vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
+    SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
+    float thickness = self_mean_thickness(one, other), friction = self_pair_friction(one, other);
+    if (has_skins) {
+        vec2 a = skin_at(pair.x), b = skin_at(pair.y), c = skin_at(pair.z), d = skin_at(pair.w);
+        thickness = self_thickness_there(weights, vec4(a.x, b.x, c.x, d.x));
+        friction = self_friction_there(edges, weights, vec4(a.y, b.y, c.y, d.y));
+    }
+    float kept = self_pair_thickness(thickness, one, other, edges, self_texel(pair.x), self_texel(pair.y),
+                                     self_texel(pair.z), self_texel(pair.w));
+    return vec2(kept, friction);
+}

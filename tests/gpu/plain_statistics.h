@@ -1,0 +1,94 @@
+// The statistics of a state, evaluated plainly in double precision.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "cloth/texels.h"
+#include "reference/twin.h"
+#include "run/run_statistics.h"
+#include "scene/start.h"
+
+namespace drape::test {
+
+inline double distance(const glsl::vec4& a, const glsl::vec4& b) {
+    return std::hypot(double(b.x) - double(a.x), double(b.y) - double(a.y), double(b.z) - double(a.z));
+}
+
+/// Strain and elastic energy of the springs of `family`, spring by spring in double precision.
+inline StrainStatistics plain_strain(const SceneDescription& scene, const ClothModel& model, const TwinCloth& state,
+                                     SpringFamily family, double& energy, double& squared_error, double& worst_error) {
+    const Stiffness& stiffness = scene.cloths[0].stiffness;
+    const double dx = model.spacing[0], dy = model.spacing[1];
+    StrainStatistics strain{0, 0, -1e300, 1e300};
+    for (std::size_t direction = 0; direction < 4; ++direction) {
+        if (spring_directions[direction].family != family) continue;
+        const auto [i, j] = spring_directions[direction].offset;
+        const std::vector<std::array<double, 4>> ratios = rest_ratios(scene.cloths[0]);
+        const double k = family == SpringFamily::shear ? stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)
+                                                       : stiffness.stretch * (j == 0 ? dy / dx : dx / dy);
+        for (int row = 0; row < model.grid.size().y; ++row)
+            for (int column = 0; column < model.grid.size().x; ++column) {
+                if (column + i < 0 || column + i >= model.grid.size().x || row + j >= model.grid.size().y) continue;
+                const glsl::vec4 shares =
+                    model.grid.spring_shares(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+                const float all[] = {shares.x, shares.y, shares.z, shares.w};
+                if (all[direction] == 0) continue;
+                const double rest = std::hypot(i * dx, j * dy) * ratios[at(model.grid, {column, row})][direction];
+                const double length = distance(state[Field::position][at(model.grid, {column, row})],
+                                               state[Field::position][at(model.grid, {column + i, row + j})]);
+                const double value = (length - rest) / rest;
+                ++strain.spring_count;
+                strain.rms += value * value;
+                strain.largest = std::max(strain.largest, value);
+                strain.smallest = std::min(strain.smallest, value);
+                const double acting = length < rest ? stiffness.compression : 1;
+                if (family == SpringFamily::stretch) {
+                    const double error =
+                        acting * value - state.tension(direction)[at(model.grid, {column, row})] / rest;
+                    squared_error += error * error;
+                    worst_error = std::max(worst_error, std::abs(error));
+                }
+                if (!stiffness.rigid) energy += 0.5 * k * acting * all[direction] * (length - rest) * (length - rest);
+            }
+    }
+    strain.rms = std::sqrt(strain.rms / strain.spring_count);
+    return strain;
+}
+
+/// Everything but penetration, evaluated plainly in double precision from the scene and the state.
+inline ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model,
+                                        const TwinCloth& state) {
+    const ClothModel& cloth = model.cloths[0];
+    ClothStatistics plain;
+    double squared_error = 0;
+    plain.stretch = plain_strain(scene, cloth, state, SpringFamily::stretch, plain.elastic_energy, squared_error,
+                                 plain.stretch_error_max);
+    plain.stretch_error_rms = std::sqrt(squared_error / plain.stretch.spring_count);
+    plain.shear = plain_strain(scene, cloth, state, SpringFamily::shear, plain.elastic_energy, squared_error,
+                               plain.stretch_error_max);
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const float weight = cloth.free_weight[i];
+        const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;
+        const glsl::vec4 x = state[Field::position][i], d = state[Field::displacement][i],
+                         e = state[Field::end_excess][i];
+        const double speed =
+            std::hypot(double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)) /
+            cloth.substep_length;
+        const double at[] = {x.x, x.y, x.z};
+        plain.kinetic_energy += 0.5 * mass * speed * speed;
+        plain.mass += mass;
+        for (std::size_t k = 0; k < 3; ++k) {
+            plain.potential_energy -= mass * scene.gravity[k] * at[k];
+            plain.center_of_mass[k] += mass * at[k];
+        }
+        plain.largest_distance = std::max(plain.largest_distance, std::hypot(at[0], at[1], at[2]));
+        plain.largest_speed = std::max(plain.largest_speed, speed);
+    }
+    for (double& coordinate : plain.center_of_mass) coordinate /= plain.mass;
+    return plain;
+}
+
+}  // namespace drape::test
