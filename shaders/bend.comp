@@ -19,6 +19,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#include "include/bend_target.h"
 
 float share_of(ivec2 owner) {
 #ifdef MASKED
@@ -46,6 +47,7 @@ void main() {
     vec3 difference =
         second_difference(spring_edge(position_middle.xyz, position_first.xyz, moved_middle.xyz, moved_first.xyz),
                           spring_edge(position_middle.xyz, position_third.xyz, moved_middle.xyz, moved_third.xyz));
+    difference = beyond_rest(difference, bend_target(middle, push.channel));
     vec3 correction = project_bend(difference, bend_weight(weight_first, weight_middle, weight_third),
                                    bend_share(share_of(first), share_of(middle)), push.compliance);
     precise float coefficient = -2.0f * weight_middle;

@@ -22,7 +22,7 @@ layout(constant_id = 2) const bool has_bend = false;
 #ifdef MASKED
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
 #endif
-#include "include/rest_length.h"
+#include "include/bend_target.h"
 
 struct Particle {
     ivec2 texel;
@@ -73,6 +73,7 @@ vec3 gather_element(vec3 sum, Particle first, Particle middle, Particle third, i
     ivec2 axis = third.texel - middle.texel;
     float share = bend_share(share_of(first, axis, channel), share_of(middle, axis, channel));
     vec3 difference = second_difference(edge_between(middle, first), edge_between(middle, third));
+    difference = beyond_rest(difference, bend_target(middle.texel, channel));
     precise float scaled = factor * share;
     return add_bend(sum, difference, scaled);
 }
@@ -97,6 +98,7 @@ vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend)
 vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle lower_left, Particle lower_right,
                  float factor) {
     vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
+    difference = beyond_rest(difference, bend_target(upper_left.texel, 2));
 #ifdef MASKED
     precise float scaled = factor * twist_share(upper_left.shares, upper_right.shares, lower_left.shares);
     return add_bend(sum, difference, scaled);

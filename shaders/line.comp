@@ -104,7 +104,8 @@ struct ParticleWalk {
 /// Eliminates particle p. A share of 0 for the spring after its own says that there is none.
 void eliminate_between(Line line, inout ParticleWalk walk, vec3 edge_after, float share_after) {
     float stiffness = stiffness_of(line, walk.particle, walk.next, walk.share);
-    BentParticle eliminated = eliminate_bent(walk.bent, walk.edge, stiffness, edge_after,
+    vec3 difference = beyond_rest(second_difference(-walk.edge, edge_after), bend_target(walk.next.at, line.channel));
+    BentParticle eliminated = eliminate_bent(walk.bent, walk.edge, stiffness, difference,
                                              element_bend(line.bend, walk.share, share_after), walk.particle.position.w);
     store_bent(line, walk.p, eliminated);
     walk.bent = eliminated.line;

@@ -54,6 +54,18 @@ Part read_part(Line line, bool is_line) {
                 has_spring ? share_of(line, first.at) : 0.0f);
 }
 
+#ifdef BENT
+/// The target of a place of the line; beyond its ends, where nothing bends, that of the end.
+vec3 target_at(Line line, int p) {
+    int near = p < 0 ? 0 : p > line.last ? line.last : p;
+    return bend_target(line_end(line.index, line.step, near + 1, line.columns), line.channel);
+}
+
+BentTargets targets_around(Line line) {
+    return BentTargets(target_at(line, group_place - 1), target_at(line, group_place), target_at(line, group_place + 1));
+}
+#endif
+
 /// Solves the first system. Returns the change of this particle's displacement, m.
 vec3 delta_of(Line line, Part part) {
     vec3 edge = part.has_spring ? start_edge_of(part.first, part.second) : vec3(0.0f, 0.0f, 0.0f);
@@ -61,7 +73,7 @@ vec3 delta_of(Line line, Part part) {
 #ifdef BENT
     hand_out(vec4(edge, stiffness), vec2(part.share, 0.0f));
     BentRow row = bent_row(spring_of_neighbour(-2), spring_of_neighbour(-1), spring_of_neighbour(0),
-                           spring_of_neighbour(1), line.bend, part.first.position.w, is_second());
+                           spring_of_neighbour(1), targets_around(line), line.bend, part.first.position.w, is_second());
     if (!part.exists) row = no_bent_row(is_second());
     return bent_solution_of(row, line.last + 1);
 #else

@@ -21,6 +21,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#include "include/bend_target.h"
 #ifdef SECOND_ORDER
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 #endif
@@ -51,6 +52,7 @@ void main() {
     float weight_11 = dragged_weight(position_11.w, moved_11.w);
     vec3 difference = twist_difference(spring_edge(position_00.xyz, position_10.xyz, moved_00.xyz, moved_10.xyz),
                                        spring_edge(position_01.xyz, position_11.xyz, moved_01.xyz, moved_11.xyz));
+    difference = beyond_rest(difference, bend_target(upper_left, 2));
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     float compliance = push.compliance;
 #ifdef SECOND_ORDER

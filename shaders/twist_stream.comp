@@ -26,6 +26,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#include "include/bend_target.h"
 #ifdef SECOND_ORDER
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 #endif
@@ -55,6 +56,7 @@ void relax(inout Particle upper_left, inout Particle upper_right, inout Particle
                                                    upper_right.displacement),
                                        spring_edge(lower_left.position, lower_right.position, lower_left.displacement,
                                                    lower_right.displacement));
+    if (is_there) difference = beyond_rest(difference, bend_target(corner, 2));
     float weight = twist_weight(upper_left.weight, upper_right.weight, lower_left.weight, lower_right.weight);
     vec3 correction = project_bend(difference, weight, is_there ? share_of(corner) : 0.0f, compliance);
     vec3 moved_00 = moved_by(upper_left.displacement, correction, upper_left.weight);

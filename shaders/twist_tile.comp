@@ -24,6 +24,7 @@ VECTOR_OUT(2, DisplacementOut, displacement_out);
 #ifdef MASKED
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #endif
+#include "include/bend_target.h"
 #ifdef SECOND_ORDER
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 #endif
@@ -54,6 +55,7 @@ void relax(ivec2 colour, float compliance) {
     int upper_left = int(gl_LocalInvocationIndex), upper_right = upper_left + 1;
     int lower_left = upper_left + tile_width, lower_right = lower_left + 1;
     vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
+    difference = beyond_rest(difference, bend_target(cell, 2));
     float weight =
         twist_weight(held[upper_left].w, held[upper_right].w, held[lower_left].w, held[lower_right].w);
     vec3 correction = project_bend(difference, weight, share_of(cell), compliance);

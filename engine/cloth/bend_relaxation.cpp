@@ -42,9 +42,14 @@ double substeps_for(double share, const MethodSettings& settings) {
 
 }  // namespace
 
+void add_bend_targets(const ClothGeometry& cloth, std::vector<MethodStep>& steps) {
+    if (cloth.rests_bent()) steps.push_back({StepKind::bend_targets, {}});
+}
+
 void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     scheme.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
+    add_bend_targets(cloth, scheme.once);
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     double share = std::min(1.0, twist / twist_pass_compliance);
     for (const double constant : cloth.stiffness_constant.bend)
@@ -73,6 +78,7 @@ void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& sett
                           MethodScheme& scheme) {
     scheme.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
+    add_bend_targets(cloth, scheme.once);
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     const auto followed = [&](double factor) { return std::min(1.0, factor * twist / twist_pass_compliance); };
     const auto compliance = [&](double factor) {

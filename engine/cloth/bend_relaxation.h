@@ -5,6 +5,9 @@
 
 namespace drape {
 
+/// Adds what other steps of bending need of cloth that rests bent.
+void add_bend_targets(const ClothGeometry& cloth, std::vector<MethodStep>& steps);
+
 /// Adds the elements of both axes, then the cells' twist, to the steps taken once, for relaxation. What a sweep cannot
 /// follow is softened, and said.
 void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);

@@ -74,6 +74,8 @@ struct ClothGeometry {
     /// Returns the length at rest, m, of a spring that `particle` owns, as the device computes it from that on flat
     /// cloth.
     float rest_length(float flat, std::size_t particle, std::size_t direction) const;
+    /// Returns whether bending, too, is at rest in the shape that the cloth starts in.
+    bool rests_bent() const { return bend > 0 && !rest_scales.empty(); }
     /// Returns the diagonal of the cloth at rest, m, or more.
     float reach() const;
 

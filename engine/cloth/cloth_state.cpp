@@ -21,6 +21,7 @@ bool always(Context) { return true; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool stiffens(Context c) { return c.cloth.stiffens; }
+bool rests_bent(Context c) { return c.cloth.rests_bent(); }
 bool adaptive(Context c) { return c.model.adaptive(); }
 bool gathers(Context c) { return c.cloth.scheme.spare_state; }
 bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; }
@@ -43,6 +44,7 @@ FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.
 FieldExtent spring_list(Context c) {
     return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
 }
+FieldExtent target_list(Context c) { return {3 * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
@@ -110,6 +112,9 @@ std::vector<FieldRow> motion_rows() {
          [](Context c) { return bytes_of_list(c.topology.whole_spring_shares()); }},
         {Field::spring_share, "spring shares", image, vector, constant, masked, spring_list,
          [](Context c) { return bytes_of_list(c.topology.spring_texels()); }, stiffens},
+        {Field::rest_shape, "rest shape", image, vector, constant, rests_bent, particles,
+         [](Context c) { return bytes_of_list(c.cloth.position); }},
+        {Field::bend_targets, "bend targets", image, vector, frame, rests_bent, target_list},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::tear_limits, "tear limits", image, vector, constant,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/bend_relaxation.h"
 #include "cloth/texels.h"
 
 namespace drape {
@@ -55,7 +56,8 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
     const RelativeStiffness used = stiffness_of(cloth, settings);
     const StiffnessConstants& wanted = cloth.stiffness_constant;
     MethodScheme scheme;
-    scheme.prediction = {{StepKind::explicit_step, step_constants(cloth, settings, used)}};
+    add_bend_targets(cloth, scheme.prediction);
+    scheme.prediction.push_back({StepKind::explicit_step, step_constants(cloth, settings, used)});
     set_verlet_start(cloth, settings, scheme);
     scheme.spare_state = true;
     scheme.gathered_tension = {cloth.grid.size(),

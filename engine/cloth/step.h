@@ -26,6 +26,7 @@ enum class StepKind {
     force,
     explicit_step,
     pin,
+    bend_targets,
     bend,
     twist,
     all_twist,

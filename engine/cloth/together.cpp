@@ -75,6 +75,7 @@ bool in_images(const Step& step) {
         case StepKind::predict:
         case StepKind::force:
         case StepKind::explicit_step:
+        case StepKind::bend_targets:
         case StepKind::bend:
         case StepKind::twist:
         case StepKind::all_twist:

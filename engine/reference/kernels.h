@@ -33,6 +33,7 @@ namespace drape::glsl {
 #include "include/nested.h"
 #include "include/pin.h"
 #include "include/residual.h"
+#include "include/rest_bend.h"
 #include "include/self_apart.h"
 #include "include/self_contact.h"
 #include "include/self_impulse.h"

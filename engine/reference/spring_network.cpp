@@ -35,6 +35,9 @@ void check_supported(const SceneDescription& scene, const Cloth& cloth, const Ne
     if (!cloth.stiffness_keys.empty())
         throw std::invalid_argument("cloth \"" + cloth.name +
                                     "\": the double-precision reference knows no stiffness that changes");
+    if (cloth.rest == Rest::start && cloth.stiffness.bend > 0)
+        throw std::invalid_argument("cloth \"" + cloth.name +
+                                    "\": the double-precision reference knows no bending that is at rest when bent");
     if (!scene.colliders.empty() && !options.ignore_colliders)
         throw std::invalid_argument("scene \"" + scene.name + "\": the double-precision reference knows no colliders");
 }

@@ -75,8 +75,8 @@ enum class HessianForm { exact, clamped };
 struct SpringNetwork {
     /// An empty network, to be filled by hand (chains, pendulums, pretensioned drums: every member is plain data).
     SpringNetwork() = default;
-    /// Throws std::invalid_argument for rigid cloth (no finite stiffness, no energy), for stiffness that changes and
-    /// for colliders unless ignored.
+    /// Throws std::invalid_argument for rigid cloth (no finite stiffness, no energy), for stiffness that changes, for
+    /// bending that is at rest in a given shape and for colliders unless ignored.
     SpringNetwork(const SceneDescription& scene, std::size_t cloth_index, const NetworkOptions& options = {});
 
     std::vector<double> mass;          ///< kg; 0 for a particle without a cell, held for ever

@@ -57,6 +57,14 @@ void TwinCloth::move_to(std::size_t particle, vec3 displacement) {
     moved = texel(displacement, moved.w);
 }
 
+vec3 TwinCloth::bend_target(ivec2 owner, int part) const {
+    const std::vector<vec4>& targets = (*this)[Field::bend_targets];
+    const auto columns = static_cast<std::size_t>(topology.grid().columns());
+    if (targets.empty()) return {0, 0, 0};
+    return xyz(targets[(3 * static_cast<std::size_t>(owner.y) + static_cast<std::size_t>(part)) * columns +
+                       static_cast<std::size_t>(owner.x)]);
+}
+
 std::span<const std::byte> TwinCloth::bytes(Field field) const {
     const auto place = static_cast<std::size_t>(field);
     if (!vectors[place].empty()) return std::as_bytes(std::span(vectors[place]));

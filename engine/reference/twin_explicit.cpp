@@ -50,7 +50,8 @@ struct Before {
         const ivec2 first{middle.x - offset.x, middle.y - offset.y}, third{middle.x + offset.x, middle.y + offset.y};
         if (!inside(first, push.grid) || !inside(third, push.grid)) return sum;
         const float shared = bend_share(share(first, offset, axis), share(middle, offset, axis));
-        return add_bend(sum, second_difference(edge(middle, first), edge(middle, third)), factor * shared);
+        const vec3 difference = second_difference(edge(middle, first), edge(middle, third));
+        return add_bend(sum, beyond_rest(difference, state.bend_target(middle, axis)), factor * shared);
     }
     vec3 with_cell(vec3 sum, ivec2 corner, float factor) const {
         const ivec2 right{corner.x + 1, corner.y}, below{corner.x, corner.y + 1}, across{corner.x + 1, corner.y + 1};
@@ -59,7 +60,8 @@ struct Before {
         const float whole = state.topology.masked()
                                 ? twist_share(shares[index(corner)], shares[index(right)], shares[index(below)])
                                 : 1.0f;
-        return add_bend(sum, twist_difference(edge(corner, right), edge(below, across)), factor * whole);
+        const vec3 difference = twist_difference(edge(corner, right), edge(below, across));
+        return add_bend(sum, beyond_rest(difference, state.bend_target(corner, 2)), factor * whole);
     }
     vec3 with_twist(vec3 sum, ivec2 here) const {
         const float twist = push.twist;

@@ -85,6 +85,11 @@ struct LineView {
     vec3 edge(std::size_t e) const { return spring_edge(start(e), start(e + 1), moved[e], moved[e + 1]); }
     LineSpring spring(std::size_t e) const { return line_spring(edge(e), rest_length(e)); }
     float rest_length(std::size_t e) const { return model.rest_length(push.rest_length, index(e), push.channel); }
+    /// Returns the target of bending at a place; places before the first, wrapped around, have the first's.
+    vec3 target(std::size_t p) const {
+        const std::size_t near = p < particles.size() ? p : p > 2 * particles.size() ? 0 : particles.size() - 1;
+        return state.bend_target(particles[near], push.channel);
+    }
     float share(std::size_t e) const {
         if (particles[e].x == push.seam) return 0.0f;
         return state.topology.masked() ? component(state.topology.spring_shares()[index(e)], push.channel)
@@ -140,8 +145,9 @@ std::vector<vec3> reduced_bent_deltas(const LineView& line, const std::vector<fl
     };
     std::vector<BentRow> rows;
     for (std::size_t p = 0; p < line.particles.size(); ++p)
-        rows.push_back(
-            bent_row(spring(p - 2), spring(p - 1), spring(p), spring(p + 1), bend, line.weight(p), p % 2 != 0));
+        rows.push_back(bent_row(spring(p - 2), spring(p - 1), spring(p), spring(p + 1),
+                                BentTargets(line.target(p - 1), line.target(p), line.target(p + 1)), bend,
+                                line.weight(p), p % 2 != 0));
     return reduced(rows);
 }
 
@@ -153,7 +159,9 @@ std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& st
     for (std::size_t p = 0; p < last; ++p) {
         const bool has_element = p + 1 < last;
         eliminated.push_back(
-            eliminate_bent(bent, line.edge(p), stiffness[p], has_element ? line.edge(p + 1) : vec3{0, 0, 0},
+            eliminate_bent(bent, line.edge(p), stiffness[p],
+                           beyond_rest(second_difference(-line.edge(p), has_element ? line.edge(p + 1) : vec3{0, 0, 0}),
+                                       line.target(p + 1)),
                            element_bend(bend, line.share(p), has_element ? line.share(p + 1) : 0.0f), line.weight(p)));
         bent = eliminated.back().line;
     }

@@ -245,9 +245,9 @@ const Object<Cloth> cloth{
          "beside the scene "
          "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
         {"rest", &Cloth::rest, choice<Rest>(rest_spellings),
-         "Where the springs along threads and diagonals are at rest. flat: on the flat cloth of this size. start: in "
-         "the shape of the file start, whose springs are 1/4 to 4 times as long as the flat cloth's. Their constants, "
-         "mass and bending are those of flat cloth either way: what is curved at rest still bends to become flat."},
+         "The shape in which the cloth is at rest. flat: the flat cloth of this size. start: that of the file start, "
+         "its lengths and its curvature; springs are 1/4 to 4 times as long as the flat cloth's. Their constants, mass "
+         "and rigidity are those of flat cloth either way."},
         {"fabric", fabric_text(), read_fabric, fabric_help()},  // stands before the keys that it sets
         {"areal_density", &Cloth::areal_density, number(positive),
          "kg/m^2. Each cell gives a quarter of its mass to each of its corners."},

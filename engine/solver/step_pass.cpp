@@ -90,6 +90,8 @@ Field control_of(const Step& step, bool written) {
 
 /// Names of resources that a step takes for others: the spare images where it writes those, and the row's own.
 std::string alias_of(const StepRow& row, const StepPlace& place, Turn turned, std::string_view name, bool written) {
+    // Cloth that is flat at rest has no targets; where nothing reads them, an image must be bound nevertheless.
+    if (name == "bend_targets" && !(*place.cloth)[Field::bend_targets].valid()) return "spring_shares";
     if (row.alias)
         if (std::string other = row.alias(place, name, written); !other.empty()) return other;
     if (name == row_of(Field::line_control).variable()) return row_of(control_of(place.step, written)).variable();

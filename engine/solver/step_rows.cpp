@@ -4,6 +4,7 @@
 
 #include "cloth/directions.h"
 #include "cloth/kernel_steps.h"
+#include "shared/bend_types.h"
 #include "solver/step_size.h"
 
 namespace drape {
@@ -95,6 +96,11 @@ graph::PushConstants release_push(Place p) {
 graph::PushConstants stiffness_push(Place p) {
     return glsl::StiffnessPush{p.cloth->model->grid.size(), static_cast<int>(p.step.cloth), 0};
 }
+/// A method that gathers moves the particles with the next substep.
+graph::PushConstants bend_target_push(Place p) {
+    const bool moved = !scheme_of(p).spare_state || p.step.substep > 0;
+    return glsl::BendTargetPush{p.cloth->model->grid.size(), moved ? 1 : 0, 0};
+}
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
 graph::PushConstants spring_push(Place p) {
     glsl::SpringPush push = p.step.push<glsl::SpringPush>();
@@ -175,6 +181,10 @@ std::vector<StepRow> first_rows() {
          nullptr,
          turns_state},
         {StepKind::pin, "pin motion", {{plain, "pin_motion.comp", none, over_pins}}, pin_push},
+        {StepKind::bend_targets,
+         "bending at rest",
+         {{plain, "bend_targets.comp", none, over_particles}},
+         bend_target_push},
         {StepKind::bend, bend_label, {{plain, "bend.comp", cut, over_bends}}},
         {StepKind::twist, twist_label, {{plain, "twist.comp", twist, over_twists}}},
         {StepKind::all_twist,

@@ -12,6 +12,12 @@ SHARED vec3 second_difference(vec3 edge_to_first, vec3 edge_to_third) {
     return difference;
 }
 
+/// What a difference has more than at rest, m.
+SHARED vec3 beyond_rest(vec3 difference, vec3 target) {
+    precise vec3 beyond = difference - target;
+    return beyond;
+}
+
 /// Returns `sum` plus an element's pull. `factor` is 2 b on the element's middle and -b on its ends, or, for a twist,
 /// -t on the corners 00 and 11 and t on 10 and 01; each times phi h^2/m_inner.
 SHARED vec3 add_bend(vec3 sum, vec3 difference, float factor) {

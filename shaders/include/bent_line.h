@@ -36,10 +36,9 @@ SHARED float element_bend(float bend, float share, float share_after) {
 }
 
 /// Eliminates the next particle, which lies between the eliminated edges and `edge`. `bend` is that of the element of
-/// `edge` and `edge_after`, 0 at the line's end.
-SHARED BentParticle eliminate_bent(BentLine line, vec3 edge, float stiffness, vec3 edge_after, float bend,
+/// `edge` and the one after it, 0 at the line's end, and `difference` what its c has more than at rest.
+SHARED BentParticle eliminate_bent(BentLine line, vec3 edge, float stiffness, vec3 difference, float bend,
                                    float weight) {
-    vec3 difference = second_difference(-edge, edge_after);
     precise float turning = line.turning + stiffness;
     precise vec3 moment = line.moment + edge * stiffness;
     precise float shift = weight * line.shift + 1.0f;

@@ -33,15 +33,20 @@ struct BentSpring {
     float stiffness, share;
 };
 
+/// Second differences at rest of the elements around the particle before, this one and the one after, m.
+struct BentTargets {
+    vec3 first, middle, third;
+};
+
 /// Row of a particle between the two springs before it and the two after it.
-SHARED BentRow bent_row(BentSpring far_before, BentSpring before, BentSpring after, BentSpring far_after, float bend,
-                        float weight, bool is_second) {
+SHARED BentRow bent_row(BentSpring far_before, BentSpring before, BentSpring after, BentSpring far_after,
+                        BentTargets targets, float bend, float weight, bool is_second) {
     float first = element_bend(bend, far_before.share, before.share);
     float middle = element_bend(bend, before.share, after.share);
     float third = element_bend(bend, after.share, far_after.share);
-    vec3 first_difference = second_difference(-far_before.edge, before.edge);
-    vec3 difference = second_difference(-before.edge, after.edge);
-    vec3 third_difference = second_difference(-after.edge, far_after.edge);
+    vec3 first_difference = beyond_rest(second_difference(-far_before.edge, before.edge), targets.first);
+    vec3 difference = beyond_rest(second_difference(-before.edge, after.edge), targets.middle);
+    vec3 third_difference = beyond_rest(second_difference(-after.edge, far_after.edge), targets.third);
     precise vec3 tension = after.edge * after.stiffness - before.edge * before.stiffness;
     precise vec3 bending = difference * (2.0f * middle) - (first_difference * first + third_difference * third);
     precise vec3 right = (tension + bending) * weight;

@@ -1,7 +1,11 @@
 // Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
 // `displacement_in`, `tension_in`, `line_control` and, where MASKED, `spring_shares`, the push constants (LinePush) and
 // `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
+#ifdef BENT
+#include "include/bend_target.h"
+#else
 #include "include/rest_length.h"
+#endif
 
 /// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in
 /// each of its rounds. For the same reason only stores in the loops below branch.

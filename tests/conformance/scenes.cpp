@@ -1,5 +1,7 @@
 #include "scenes.h"
 
+#include <cmath>
+
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 
@@ -50,6 +52,19 @@ SceneDescription flying(bool holes) {
 SceneDescription bent_explicitly() {
     SceneDescription scene = with(everything(), SolverMethod::explicit_steps, 12);
     scene.cloths[0].stiffness.bend = 1e-4;
+    return scene;
+}
+
+/// A wave that it starts in is the shape in which it is at rest.
+SceneDescription at_rest_in_a_wave(SceneDescription scene) {
+    Cloth& cloth = scene.cloths[0];
+    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column)
+            cloth.start.push_back({0.9 * cloth.size[0] * column / (cloth.grid[0] - 1) - 0.5,
+                                   0.02 * std::sin(0.7 * row + 0.2 * column) + 0.01 * std::sin(0.5 * column),
+                                   0.9 * cloth.size[1] * row / (cloth.grid[1] - 1) - 0.4});
+    cloth.placement = {};
+    cloth.rest = Rest::start;
     return scene;
 }
 
@@ -181,6 +196,9 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"Line", with(everything_in_lines(), line, 4), 5},
         {"LineBendingWithHoles", bent_lines_with_holes(), 5},
         {"LineWeakened", weakened_lines(), 5},
+        {"RelaxedRestsBent", at_rest_in_a_wave(relaxed()), 5},
+        {"ExplicitRestsBent", at_rest_in_a_wave(bent_explicitly()), 5},
+        {"LineRestsBent", at_rest_in_a_wave(bent_lines_with_holes()), 5},
         {"LineToATolerance", lines_to_a_tolerance(), 5},
         {"LineSoftInCompression", soft_lines(), 5},
         {"LonePins", around_lone_pins(false), 5},

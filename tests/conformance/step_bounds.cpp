@@ -20,6 +20,7 @@ const std::vector<StepBound>& step_bounds() {
         {force, 4, fixed, 0, "as predict"},
         {explicit_step, 64, steps, 0, "a root and a division for each of eight springs, added up"},
         {pin, 0, fixed, 0, "sums and products"},
+        {bend_targets, 24, fixed, 0, "two roots and two divisions for each of two frames, multiplied"},
         {bend, 4, fixed, 0, "a division"},
         {twist, 4, fixed, 0, "a division"},
         {all_twist, 16, fixed, 0, "four times twist"},

@@ -28,8 +28,8 @@ struct BendingLine {
     std::vector<vec3> reduced_changes() const {
         std::vector<BentRow> rows;  // places before the first spring wrap around to beyond the last
         for (std::size_t p = 0; p < weights.size(); ++p)
-            rows.push_back(
-                bent_row(spring(p - 2), spring(p - 1), spring(p), spring(p + 1), bend, weights[p], p % 2 != 0));
+            rows.push_back(bent_row(spring(p - 2), spring(p - 1), spring(p), spring(p + 1),
+                                    BentTargets({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), bend, weights[p], p % 2 != 0));
         return reduced(rows);
     }
     std::vector<double> exact_changes() const;
