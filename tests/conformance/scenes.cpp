@@ -210,6 +210,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"SeveralExplicit", several(explicit_steps, 12), 5},
         {"SlitRelaxed", slit(relax, 4), 5},
         {"SlitLine", slit(line, 4), 5},
+        {"SlitRestsBent", at_rest_in_a_wave(slit(line, 4)), 5},
         {"ContactExplicit", crumpling(explicit_steps, 40), 16},
         {"ContactLine", crumpling(line, 10), 16},
         {"ContactOfLayers", layers(line, 6), 12},

@@ -77,22 +77,21 @@ TEST(TwinGivenTest, AVelocityOfEachParticle) {
     }
 }
 
-/// Each spring then has a length at rest of its own. The cloth is cut and hangs on pins that move and let go.
+/// Each spring then has a length at rest of its own, and each element that bends a difference. The cloth hangs on pins
+/// that move and let go.
 TEST(TwinGivenTest, AFoldedStartThatIsAtRest) {
-    for (const SolverMethod method : methods)
-        for (const int iterations : {1, 2}) {
-            if (iterations == 2 && method == SolverMethod::explicit_steps) continue;
-            SceneDescription scene = test::everything();
-            scene.solver.method = method;
-            scene.solver.iterations = static_cast<std::uint32_t>(iterations);
-            scene.cloths[0].stiffness.bend = 1e-4;
-            fold(scene.cloths[0]);
-            scene.cloths[0].rest = Rest::start;
-            compare(scene);
-            if (method != SolverMethod::line) continue;
-            scene.colliders = {};  // of second order
-            compare(scene);
-        }
+    for (const SolverMethod method : methods) {
+        SceneDescription scene = test::everything();
+        scene.solver.method = method;
+        if (method != SolverMethod::explicit_steps) scene.solver.iterations = 2;
+        scene.cloths[0].stiffness.bend = 1e-4;
+        fold(scene.cloths[0]);
+        scene.cloths[0].rest = Rest::start;
+        compare(scene);
+        if (method != SolverMethod::line) continue;
+        scene.colliders = {};  // of second order
+        compare(scene);
+    }
 }
 
 /// Grids that fill tiles and strips; their statistics, too.
@@ -125,8 +124,6 @@ TEST(TwinGivenTest, AFoldedStartThatMeetsItself) {
     fold(scene.cloths[0]);
     scene.cloths[0].self_collision.emplace();
     EXPECT_GT(compare(scene).most_pairs, 0u);
-    scene.cloths[0].rest = Rest::start;
-    EXPECT_GT(compare(scene).most_pairs, 0u);
 }
 
 /// All that gives springs and particles numbers of their own acts at once.
@@ -142,8 +139,9 @@ TEST(TwinGivenTest, AllThatDiffersAtOnce) {
         vary(cloth);
         vary_skin(cloth);
         compare(scene);
+        if (method != SolverMethod::line) continue;
         cloth.self_collision.emplace();
-        compare(scene);
+        EXPECT_GT(compare(scene).most_pairs, 0u);
     }
 }
 
