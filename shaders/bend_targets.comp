@@ -1,9 +1,13 @@
-// This pass finds the differences that the bending elements of a cloth have at rest, in the shape that it started in,
-// turned as the cloth is turned now: an invocation for the elements whose middle, and the cell whose corner, a particle
-// is (include/bend_target.h). Sides that are cut turn nothing. Every texel is written.
+// This pass finds what the bending elements of a cloth that rests bent are at rest (include/rest_bend.h): for those
+// whose middle a particle is, and for the cell whose corner it is, an invocation writes the differences at rest, turned
+// as the particles are predicted to be, and what they pull at their tangents as the particles were when the substep
+// began. Both are taken for constant within the substep. Sides that are cut belong to no tangent. Every texel is
+// written. SECOND_ORDER asks the control whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma variants SECOND_ORDER
 #include "shared/bend_types.h"
+#include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/push.h"
@@ -11,7 +15,7 @@
 #include "include/spring.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(BendTargetPush)
+CLOTH_CONSTANTS(BendTargetPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -19,22 +23,37 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D rest_shape;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D bend_targets;
+#ifdef SECOND_ORDER
+layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D line_control;
+#endif
+layout(constant_id = 0) const bool advance = false;  // as in explicit.comp
 
-/// The edge between two particles at rest and now, m.
+/// The edge between two particles at rest, when the substep began and now, m.
 struct Edge {
-    vec3 rest, now;
+    vec3 rest, start, now;
 };
 
-const Edge no_edge = Edge(vec3(0.0f), vec3(0.0f));
+const Edge no_edge = Edge(vec3(0.0f), vec3(0.0f), vec3(0.0f));
+
+/// Whether pulls are those of now: BDF2 wants forces at its end, and lagging ones feed motions. Euler steps damp by lag.
+bool pulls_now = push.gathers != 0;
 
 Edge edge_between(ivec2 from, ivec2 to) {
     precise vec3 rest = LOAD(rest_shape, to).xyz - LOAD(rest_shape, from).xyz;
-    vec3 moved_from = vec3(0.0f), moved_to = vec3(0.0f);
-    if (push.moved != 0) {
-        moved_from = LOAD(displacement_in, from).xyz;
-        moved_to = LOAD(displacement_in, to).xyz;
-    }
-    return Edge(rest, spring_edge(LOAD(position, from).xyz, LOAD(position, to).xyz, moved_from, moved_to));
+    precise vec3 start = LOAD(position, to).xyz - LOAD(position, from).xyz;
+    vec3 now = start;
+    if (push.gathers == 0 || advance)
+        now = spring_edge(LOAD(position, from).xyz, LOAD(position, to).xyz, LOAD(displacement_in, from).xyz,
+                          LOAD(displacement_in, to).xyz);
+    if (pulls_now) start = now;
+    return Edge(rest, start, now);
+}
+
+Edge sum_of(Edge one, Edge other, float sign) {
+    precise vec3 rest = other.rest + one.rest * sign;
+    precise vec3 start = other.start + one.start * sign;
+    precise vec3 now = other.now + one.now * sign;
+    return Edge(rest, start, now);
 }
 
 /// Returns the way from one particle to another by way of the one between them, as far as both ends hang together.
@@ -42,29 +61,44 @@ Edge through(Edge to_first, bool has_first, Edge to_third, bool has_third) {
     Edge first = no_edge, third = no_edge;
     if (has_first) first = to_first;
     if (has_third) third = to_third;
-    precise vec3 rest = third.rest - first.rest;
-    precise vec3 now = third.now - first.now;
-    return Edge(rest, now);
+    return sum_of(first, third, -1.0f);
 }
 
-Edge sum_of(Edge one, Edge other) {
-    precise vec3 rest = one.rest + other.rest;
-    precise vec3 now = one.now + other.now;
-    return Edge(rest, now);
+/// An element's difference at rest, turned to now, and its pull.
+struct Bent {
+    vec3 target;
+    Tangents pull;
+};
+
+Bent bent(Edge difference, Edge row, Edge column, float stiffness) {
+    vec4 coordinates = rest_coordinates(difference.rest, Tangents(row.rest, column.rest));
+    Tangents start = Tangents(row.start, column.start);
+    vec3 beyond = beyond_rest(difference.start, rest_difference(coordinates, start, difference.start));
+    precise vec3 force = beyond * stiffness;
+    return Bent(rest_difference(coordinates, Tangents(row.now, column.now), difference.now),
+                rest_pull(coordinates, start, force));
 }
 
-vec3 target_of(vec3 difference, Edge row, Edge column) {
-    return turned_difference(difference, Tangents(row.rest, column.rest), Tangents(row.now, column.now));
+void store(ivec2 texel, int part, vec3 value) {
+    imageStore(bend_targets, placed(texel) + ivec2(part * push.grid.x, 0), vec4(value, 0.0f));
 }
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = push.grid - 1;
     if (texel.x > last.x || texel.y > last.y) return;
+    vec4 stiffness = push.stiffness;
+#ifdef SECOND_ORDER
+    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) {
+        stiffness = push.stiffness_bdf2;
+        pulls_now = true;
+    }
+#endif
     ivec2 right = texel + ivec2(1, 0), below = texel + ivec2(0, 1);
     bool has_left = texel.x > 0, has_right = texel.x < last.x, has_up = texel.y > 0, has_down = texel.y < last.y;
     vec4 shares = LOAD(spring_shares, texel);
     Edge to_left = no_edge, to_right = no_edge, to_up = no_edge, to_down = no_edge;
-    float share_left = 0.0f, share_up = 0.0f;
+    float share_left = 0.0f, share_up = 0.0f, share_right = has_right ? shares.x : 0.0f;
+    float share_down = has_down ? shares.y : 0.0f;
     if (has_left) {
         to_left = edge_between(texel, texel - ivec2(1, 0));
         share_left = LOAD(spring_shares, texel - ivec2(1, 0)).x;
@@ -75,18 +109,29 @@ void main() {
         share_up = LOAD(spring_shares, texel - ivec2(0, 1)).y;
     }
     if (has_down) to_down = edge_between(texel, below);
-    Edge row = through(to_left, share_left > 0.0f, to_right, has_right && shares.x > 0.0f);
-    Edge column = through(to_up, share_up > 0.0f, to_down, has_down && shares.y > 0.0f);
-    vec3 along_row = vec3(0.0f), along_column = vec3(0.0f), twist = vec3(0.0f);
-    if (has_left && has_right)
-        along_row = target_of(second_difference(to_left.rest, to_right.rest), row, column);
-    if (has_up && has_down)
-        along_column = target_of(second_difference(to_up.rest, to_down.rest), row, column);
+    Edge row = through(to_left, share_left > 0.0f, to_right, share_right > 0.0f);
+    Edge column = through(to_up, share_up > 0.0f, to_down, share_down > 0.0f);
+    vec3 none = vec3(0.0f);
+    Bent along_row = Bent(none, Tangents(none, none)), along_column = along_row, twist = along_row;
+    if (has_left && has_right) {
+        precise float acting = stiffness.x * bend_share(share_left, share_right);
+        along_row = bent(sum_of(to_left, to_right, 1.0f), row, column, acting);
+    }
+    if (has_up && has_down) {
+        precise float acting = stiffness.y * bend_share(share_up, share_down);
+        along_column = bent(sum_of(to_up, to_down, 1.0f), row, column, acting);
+    }
     if (has_right && has_down) {
         Edge lower = edge_between(below, below + ivec2(1, 0)), far = edge_between(right, right + ivec2(0, 1));
-        twist = target_of(twist_difference(to_right.rest, lower.rest), sum_of(to_right, lower), sum_of(to_down, far));
+        precise float acting = stiffness.z * twist_share(shares, LOAD(spring_shares, right), LOAD(spring_shares, below));
+        twist = bent(sum_of(to_right, lower, -1.0f), sum_of(to_right, lower, 1.0f), sum_of(to_down, far, 1.0f), acting);
     }
-    imageStore(bend_targets, placed(texel), vec4(along_row, 0.0f));
-    imageStore(bend_targets, placed(texel) + ivec2(push.grid.x, 0), vec4(along_column, 0.0f));
-    imageStore(bend_targets, placed(texel) + ivec2(2 * push.grid.x, 0), vec4(twist, 0.0f));
+    Tangents pull = sum_of_pulls(along_row.pull, along_column.pull);
+    store(texel, 0, along_row.target);
+    store(texel, 1, along_column.target);
+    store(texel, 2, twist.target);
+    store(texel, bend_pull_row, pull.row);
+    store(texel, bend_pull_column, pull.column);
+    store(texel, twist_pull_row, twist.pull.row);
+    store(texel, twist_pull_column, twist.pull.column);
 }

@@ -5,10 +5,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED WIND BUFFERED
+#include "shared/bend_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/explicit.h"
 #include "include/push.h"
+#include "include/rest_bend.h"
 #include "include/spring.h"
 #include "include/verlet.h"
 #include "include/wind.h"
@@ -23,6 +25,9 @@ layout(constant_id = 2) const bool has_bend = false;
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
 #endif
 #include "include/bend_target.h"
+#ifdef MASKED
+#include "include/bend_pull.h"
+#endif
 
 struct Particle {
     ivec2 texel;
@@ -159,6 +164,9 @@ void main() {
         pull = gather_bend(pull, center, ivec2(1, 0), 0, push.bend.x);
         pull = gather_bend(pull, center, ivec2(0, 1), 1, push.bend.y);
         pull = gather_twist(pull, center);
+#ifdef MASKED
+        if (own_rest) pull = add_pull_of(pull, bend_pull(texel), 1.0f);
+#endif
     }
     vec4 force = force_on(texel);
     vec3 increment = explicit_increment(displacement, push.gravity_step.xyz, force.xyz, pull, position.w,

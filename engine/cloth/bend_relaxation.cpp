@@ -36,24 +36,42 @@ void add_twists(const ClothGeometry& cloth, float compliance, float compliance_b
     }
 }
 
+/// Adds what other steps of bending need of cloth that rests bent and uses a share of its stiffness.
+void add_rest_bend(const ClothGeometry& cloth, const MethodSettings& settings, double share, double bdf2_factor,
+                   MethodScheme& scheme) {
+    if (!cloth.rests_bent()) return;
+    const auto stiffness = [&](double constant) {
+        return constant > 0 ? share / wanted_compliance(constant, cloth, settings) : 0;
+    };
+    const StiffnessConstants& constant = cloth.stiffness_constant;
+    const BendStiffness euler{stiffness(constant.bend[0]), stiffness(constant.bend[1]), stiffness(constant.twist)};
+    scheme.once.push_back(
+        {StepKind::bend_targets, bend_target_constants(cloth, false, euler, euler.times(1 / bdf2_factor))});
+    scheme.once.push_back({StepKind::bend_pulls, {}});
+}
+
 double substeps_for(double share, const MethodSettings& settings) {
     return std::ceil(settings.substeps / std::sqrt(share));
 }
 
 }  // namespace
 
-void add_bend_targets(const ClothGeometry& cloth, std::vector<MethodStep>& steps) {
-    if (cloth.rests_bent()) steps.push_back({StepKind::bend_targets, {}});
+glsl::BendTargetPush bend_target_constants(const ClothGeometry& cloth, bool gathers, const BendStiffness& euler,
+                                           const BendStiffness& bdf2) {
+    const auto texel = [](const BendStiffness& of) {
+        return glsl::vec4{static_cast<float>(of.row), static_cast<float>(of.column), static_cast<float>(of.twist), 0};
+    };
+    return {cloth.grid.size(), gathers ? 1 : 0, 0, texel(euler), texel(bdf2)};
 }
 
 void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     scheme.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
-    add_bend_targets(cloth, scheme.once);
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     double share = std::min(1.0, twist / twist_pass_compliance);
     for (const double constant : cloth.stiffness_constant.bend)
         if (constant > 0) share = std::min(share, wanted_compliance(constant, cloth, settings) / bend_pass_compliance);
+    add_rest_bend(cloth, settings, share, 1, scheme);
     // All elements are softened alike, so that the cloth stays equally stiff in every direction.
     for (const BendPass& pass : bend_passes(cloth.grid.size())) {
         const auto axis = static_cast<std::size_t>(pass.axis);
@@ -78,7 +96,7 @@ void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& sett
                           MethodScheme& scheme) {
     scheme.used_bend = cloth.bend;
     if (cloth.bend == 0) return;
-    add_bend_targets(cloth, scheme.once);
+    add_rest_bend(cloth, settings, 1, factors.bdf2, scheme);
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     const auto followed = [&](double factor) { return std::min(1.0, factor * twist / twist_pass_compliance); };
     const auto compliance = [&](double factor) {

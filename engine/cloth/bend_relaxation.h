@@ -5,8 +5,16 @@
 
 namespace drape {
 
-/// Adds what other steps of bending need of cloth that rests bent.
-void add_bend_targets(const ClothGeometry& cloth, std::vector<MethodStep>& steps);
+/// b h^2/m_inner of elements along rows and columns, and of cells.
+struct BendStiffness {
+    double row, column, twist;
+    BendStiffness times(double factor) const { return {factor * row, factor * column, factor * twist}; }
+};
+
+/// Returns the push constants of the step that finds what cloth that rests bent is at rest, where elements have so much
+/// stiffness in an Euler step and in one of BDF2.
+glsl::BendTargetPush bend_target_constants(const ClothGeometry& cloth, bool gathers, const BendStiffness& euler,
+                                           const BendStiffness& bdf2);
 
 /// Adds the elements of both axes, then the cells' twist, to the steps taken once, for relaxation. What a sweep cannot
 /// follow is softened, and said.

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "cloth/cloth_statistics.h"
+#include "shared/bend_types.h"
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
@@ -44,7 +45,7 @@ FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.
 FieldExtent spring_list(Context c) {
     return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
 }
-FieldExtent target_list(Context c) { return {3 * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }

@@ -44,7 +44,7 @@ enum class Field : std::uint8_t {
     whole_spring_share,        ///< spring shares before the factor of a stiffness that changes
     spring_share,              ///< share of the springs that a particle is the first of, by direction
     rest_shape,                ///< positions at rest of cloth that rests bent, m
-    bend_targets,              ///< differences of its bending elements at rest, in the substep, m (bend_target.h)
+    bend_targets,              ///< what its bending elements are at rest, in the substep, m (bend_target.h)
     mass_share,                ///< mass over an inner particle's
     cells,                     ///< one texel per cell: bits 1 and 2 are set for the triangles that exist
     tear_limits,               ///< what springs along row and column bear (cloth/tear.h)

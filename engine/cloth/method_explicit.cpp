@@ -56,8 +56,12 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
     const RelativeStiffness used = stiffness_of(cloth, settings);
     const StiffnessConstants& wanted = cloth.stiffness_constant;
     MethodScheme scheme;
-    add_bend_targets(cloth, scheme.prediction);
-    scheme.prediction.push_back({StepKind::explicit_step, step_constants(cloth, settings, used)});
+    const glsl::ExplicitPush step = step_constants(cloth, settings, used);
+    if (cloth.rests_bent()) {
+        const BendStiffness bend{step.bend.x, step.bend.y, step.twist};
+        scheme.prediction = {{StepKind::bend_targets, bend_target_constants(cloth, true, bend, bend)}};
+    }
+    scheme.prediction.push_back({StepKind::explicit_step, step});
     set_verlet_start(cloth, settings, scheme);
     scheme.spare_state = true;
     scheme.gathered_tension = {cloth.grid.size(),

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drape/kernels.h"
+#include "shared/bend_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/self_contact_types.h"
@@ -27,6 +28,7 @@ enum class StepKind {
     explicit_step,
     pin,
     bend_targets,
+    bend_pulls,
     bend,
     twist,
     all_twist,
@@ -60,9 +62,9 @@ inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind
 /// The push structure of a step whose constants are its method's own. `SpringPush::first_iteration` is set per
 /// iteration.
 using StepConstants =
-    std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendPush,
-                 glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush, glsl::LinePush,
-                 glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
+    std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
+                 glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
+                 glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, for any substep.
 struct MethodStep {

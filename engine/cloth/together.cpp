@@ -35,6 +35,9 @@ struct StructureOf {
         structure.twist = sign(push.twist);
         return structure;
     }
+    StepConstants operator()(const glsl::BendTargetPush& push) const {
+        return glsl::BendTargetPush{push.grid, push.gathers, 0, sign(push.stiffness), sign(push.stiffness_bdf2)};
+    }
     StepConstants operator()(glsl::BendPush push) const {
         push.compliance = 0;
         return push;
@@ -76,6 +79,7 @@ bool in_images(const Step& step) {
         case StepKind::force:
         case StepKind::explicit_step:
         case StepKind::bend_targets:
+        case StepKind::bend_pulls:
         case StepKind::bend:
         case StepKind::twist:
         case StepKind::all_twist:

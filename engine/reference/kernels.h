@@ -1,6 +1,7 @@
 // The shaders' own functions compiled as C++, so that the projection, the contact and the wind have one source.
 #pragma once
 
+#include "shared/bend_types.h"
 #include "shared/closed_loop_types.h"
 #include "shared/collider_types.h"
 #include "shared/form_types.h"

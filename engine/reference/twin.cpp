@@ -61,7 +61,8 @@ vec3 TwinCloth::bend_target(ivec2 owner, int part) const {
     const std::vector<vec4>& targets = (*this)[Field::bend_targets];
     const auto columns = static_cast<std::size_t>(topology.grid().columns());
     if (targets.empty()) return {0, 0, 0};
-    return xyz(targets[(3 * static_cast<std::size_t>(owner.y) + static_cast<std::size_t>(part)) * columns +
+    return xyz(targets[(std::size_t{bend_parts} * static_cast<std::size_t>(owner.y) + static_cast<std::size_t>(part)) *
+                           columns +
                        static_cast<std::size_t>(owner.x)]);
 }
 

@@ -44,8 +44,10 @@ struct TwinCloth {
     float dragged_weight_of(std::size_t particle) const;
     /// Writes a displacement and keeps the mark that the prediction left beside it.
     void move_to(std::size_t particle, glsl::vec3 displacement);
-    /// Returns the difference that a bending element has at rest, m; `part`: 0 row, 1 column, 2 twist.
+    /// Returns a part of what bending elements are at rest, m (shaders/shared/bend_types.h).
     glsl::vec3 bend_target(glsl::ivec2 owner, int part) const;
+    /// Returns what a particle feels of the elements in whose tangents it is (shaders/include/bend_pull.h).
+    glsl::vec3 bend_pull(glsl::ivec2 particle) const;
     std::span<const std::byte> bytes(Field field) const;
 
     std::array<std::vector<glsl::vec4>, field_count> vectors;

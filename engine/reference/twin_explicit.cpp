@@ -80,7 +80,9 @@ struct Before {
             sum = with_element(sum, here, axis, 2.0f * bend);
             sum = with_element(sum, {here.x + offset.x, here.y + offset.y}, axis, -bend);
         }
-        return with_twist(sum, here);
+        sum = with_twist(sum, here);
+        const bool rests_bent = !state[Field::bend_targets].empty() && push.twist != 0.0f;
+        return rests_bent ? add_pull_of(sum, state.bend_pull(here), 1.0f) : sum;
     }
 };
 

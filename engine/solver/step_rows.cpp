@@ -4,7 +4,6 @@
 
 #include "cloth/directions.h"
 #include "cloth/kernel_steps.h"
-#include "shared/bend_types.h"
 #include "solver/step_size.h"
 
 namespace drape {
@@ -96,11 +95,6 @@ graph::PushConstants release_push(Place p) {
 graph::PushConstants stiffness_push(Place p) {
     return glsl::StiffnessPush{p.cloth->model->grid.size(), static_cast<int>(p.step.cloth), 0};
 }
-/// A method that gathers moves the particles with the next substep.
-graph::PushConstants bend_target_push(Place p) {
-    const bool moved = !scheme_of(p).spare_state || p.step.substep > 0;
-    return glsl::BendTargetPush{p.cloth->model->grid.size(), moved ? 1 : 0, 0};
-}
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
 graph::PushConstants spring_push(Place p) {
     glsl::SpringPush push = p.step.push<glsl::SpringPush>();
@@ -165,7 +159,7 @@ std::vector<StepRow> first_rows() {
         predict{{"wind", windy}, {"buffered", buffered}},
         force{{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
         explicit_step{{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
-        all_twist{{"masked", masked}, {"second_order", second_order}},
+        order{{"second_order", second_order}}, all_twist{{"masked", masked}, {"second_order", second_order}},
         twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}};
     return {
         {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", none, over_particles}}, stiffness_push},
@@ -181,10 +175,8 @@ std::vector<StepRow> first_rows() {
          nullptr,
          turns_state},
         {StepKind::pin, "pin motion", {{plain, "pin_motion.comp", none, over_pins}}, pin_push},
-        {StepKind::bend_targets,
-         "bending at rest",
-         {{plain, "bend_targets.comp", none, over_particles}},
-         bend_target_push},
+        {StepKind::bend_targets, "bending at rest", {{plain, "bend_targets.comp", order, over_particles}}},
+        {StepKind::bend_pulls, "pulls of bending", {{plain, "bend_pulls.comp", none, over_particles}}, grid_push},
         {StepKind::bend, bend_label, {{plain, "bend.comp", cut, over_bends}}},
         {StepKind::twist, twist_label, {{plain, "twist.comp", twist, over_twists}}},
         {StepKind::all_twist,

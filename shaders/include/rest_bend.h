@@ -1,5 +1,7 @@
-// The difference that a bending element has at rest, where a cloth rests in the shape that it starts in: that of the
-// start, turned as the cloth has turned there. Energies are b/2 |d - D|^2 with this D (docs/physics.md 4).
+// Bending of cloth that rests in the shape that it starts in. An element's energy is b/2 |d - D(x)|^2, where d is its
+// difference (bend.h) and D that of the shape at rest as the cloth has turned there: with the start's D = alpha row +
+// beta column + gamma row x column in the tangents of its place, D(x) has the same coordinates in those of now. This is
+// polynomial, and turns with the cloth, so its gradient keeps both momenta (compare Garg et al. 2007, "Cubic Shells").
 #ifndef DRAPE_REST_BEND_H
 #define DRAPE_REST_BEND_H
 
@@ -10,29 +12,48 @@ struct Tangents {
     vec3 row, column;
 };
 
-/// Unit vectors of tangents: along the row, along the normal and across the two; all zero where they span no plane.
-struct SheetFrame {
-    vec3 along, normal, across;
-};
-
-SHARED SheetFrame sheet_frame(Tangents tangents) {
-    vec3 normal = ordered_cross(tangents.row, tangents.column);
-    float row_squared = ordered_dot(tangents.row, tangents.row), normal_squared = ordered_dot(normal, normal);
-    precise float least = 1.0e-8f * (row_squared * ordered_dot(tangents.column, tangents.column));
-    vec3 none = vec3(0.0f, 0.0f, 0.0f);
-    if (!(normal_squared > least)) return SheetFrame(none, none, none);
-    precise vec3 along = tangents.row * reciprocal(sqrt(row_squared));
-    precise vec3 upright = normal * reciprocal(sqrt(normal_squared));
-    return SheetFrame(along, upright, ordered_cross(upright, along));
+/// Returns alpha, beta, gamma and 1. Where the tangents span no plane, a strand one particle wide, which has no side,
+/// it returns the difference's length and 0.
+SHARED vec4 rest_coordinates(vec3 difference, Tangents rest) {
+    vec3 normal = ordered_cross(rest.row, rest.column);
+    float squared = ordered_dot(normal, normal);
+    precise float least = 1.0e-8f * (ordered_dot(rest.row, rest.row) * ordered_dot(rest.column, rest.column));
+    if (!(squared > least)) return vec4(sqrt(ordered_dot(difference, difference)), 0.0f, 0.0f, 0.0f);
+    float per_squared = reciprocal(squared);
+    precise float along_row = ordered_dot(difference, ordered_cross(rest.column, normal)) * per_squared;
+    precise float along_column = ordered_dot(difference, ordered_cross(normal, rest.row)) * per_squared;
+    precise float across = ordered_dot(difference, normal) * per_squared;
+    return vec4(along_row, along_column, across, 1.0f);
 }
 
-/// Returns a difference (m) of the shape at rest, turned as the tangents have turned since.
-SHARED vec3 turned_difference(vec3 difference, Tangents rest, Tangents now) {
-    SheetFrame from = sheet_frame(rest), to = sheet_frame(now);
-    precise vec3 turned = to.along * ordered_dot(difference, from.along) +
-                          to.normal * ordered_dot(difference, from.normal) +
-                          to.across * ordered_dot(difference, from.across);
-    return turned;
+/// Returns D for tangents and a difference of now. A strand's points as its difference does.
+SHARED vec3 rest_difference(vec4 coordinates, Tangents now, vec3 difference) {
+    float size = sqrt(ordered_dot(difference, difference));
+    precise vec3 strand = difference * (coordinates.x / (size > 0.0f ? size : 1.0f));
+    precise vec3 sheet =
+        now.row * coordinates.x + now.column * coordinates.y + ordered_cross(now.row, now.column) * coordinates.z;
+    return coordinates.w == 0.0f ? strand : sheet;
+}
+
+/// Returns the force on the tangents, (dD/dx)^T beyond, for `beyond` = b (d - D).
+SHARED Tangents rest_pull(vec4 coordinates, Tangents now, vec3 beyond) {
+    precise vec3 row = beyond * coordinates.x + ordered_cross(now.column, beyond) * coordinates.z;
+    precise vec3 column = beyond * coordinates.y + ordered_cross(beyond, now.row) * coordinates.z;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    if (coordinates.w == 0.0f) return Tangents(none, none);
+    return Tangents(row, column);
+}
+
+SHARED Tangents sum_of_pulls(Tangents one, Tangents other) {
+    precise vec3 row = one.row + other.row;
+    precise vec3 column = one.column + other.column;
+    return Tangents(row, column);
+}
+
+/// Adds a pull to a sum, with the sign of 1 or -1 that a particle has in the tangent, or 0.
+SHARED vec3 add_pull_of(vec3 sum, vec3 pull, float sign) {
+    precise vec3 total = sum + pull * sign;
+    return total;
 }
 
 #endif
