@@ -72,6 +72,30 @@ float ClothGeometry::reach() const {
     return largest * static_cast<float>(std::hypot(spacing[0] * (grid.columns() - 1), spacing[1] * (grid.rows() - 1)));
 }
 
+double ClothGeometry::start_bending() const {
+    if (bend == 0 || rests_bent() || !is_given) return 0;
+    const auto at = [this](std::uint32_t column, std::uint32_t row) {
+        const glsl::vec4& texel = position[grid.particle(column, row)];
+        return Vec3{double{texel.x}, double{texel.y}, double{texel.z}};
+    };
+    double doubled = 0;
+    const auto add = [&](double constant, const Vec3& difference) {
+        doubled += constant * dot(difference, difference);
+    };
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const Vec3 here = at(column, row);
+            if (column > 1)
+                add(stiffness_constant.bend[0], minus(plus(here, at(column - 2, row)), times(2, at(column - 1, row))));
+            if (row > 1)
+                add(stiffness_constant.bend[1], minus(plus(here, at(column, row - 2)), times(2, at(column, row - 1))));
+            if (column > 0 && row > 0)
+                add(stiffness_constant.twist,
+                    minus(plus(here, at(column - 1, row - 1)), plus(at(column - 1, row), at(column, row - 1))));
+        }
+    return doubled / 2;
+}
+
 void ClothGeometry::place(const Cloth& cloth) {
     const std::vector<Vec3> start = start_positions(cloth);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)

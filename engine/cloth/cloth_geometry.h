@@ -76,6 +76,8 @@ struct ClothGeometry {
     float rest_length(float flat, std::size_t particle, std::size_t direction) const;
     /// Returns whether bending, too, is at rest in the shape that the cloth starts in.
     bool rests_bent() const { return bend > 0 && !rest_scales.empty(); }
+    /// Returns the energy, J, that bending stores in the shape that it starts in, as if all of its cells were there.
+    double start_bending() const;
     /// Returns the diagonal of the cloth at rest, m, or more.
     float reach() const;
 

@@ -104,7 +104,7 @@ Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths
     led_apart_ = model.self_contact && !model.self_contact->to_part.empty();
     passive_ = passive_ && !led_apart_;
     for (const ClothModel& cloth : model.cloths) {
-        Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, 0, false};
+        Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, 0, false, cloth.start_bending()};
         if (start.strain > 0) start.held_strain = rounding * held_strain(cloth);
         const std::vector<float> share = mass_shares(cloth);
         double mass = 0;
@@ -190,10 +190,13 @@ double Watch::pushed() const {
     return model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
 }
 
-/// Returns m/s at which the strain comes back that a cloth starts with.
+/// Returns m/s at which the strain and the bending come back that a cloth starts with.
 double Watch::released(std::size_t index) const {
     const Start& start = starts_[index];
-    return start.strain * wave_speed(model_.scene.cloths[index], start.diagonal, model_.scene.time.fps);
+    const ClothModel& cloth = model_.cloths[index];
+    const double mass = cloth.inner_mass * (cloth.grid.columns() - 1) * (cloth.grid.rows() - 1);
+    return start.strain * wave_speed(model_.scene.cloths[index], start.diagonal, model_.scene.time.fps) +
+           std::sqrt(2 * start.bending / mass);
 }
 
 /// Returns the speed that a cloth may have by what acts on it, m/s, without what other cloths give it.

@@ -99,6 +99,7 @@ class Watch {
         double strain;               ///< its springs', where it starts stretched or compressed
         double held_strain;          ///< that of springs that pins hold at both ends
         bool held;                   ///< pins hold it for good
+        double bending;              ///< J, stored at the start
         double square_speed = 0;     ///< m^2/s^2, the mean by mass
     };
     void remember(const ClothStatistics& statistics);
