@@ -138,7 +138,9 @@ MeshFields::MeshFields(const SceneDescription& scene) {
                                     points, mesh->file, most_field_points));
         first_.resize(k + 1);
         first_[k] = texels.size();
-        spacings_.push_back({k, plan.wanted, plan.spacing, 2 * mesh->shape->inner_radius()});
+        const double thickness = 2 * mesh->shape->inner_radius();
+        const bool has_room = field_points(*mesh->shape, thickness / 4, plan.margin) <= most_field_points;
+        spacings_.push_back({k, plan.wanted, plan.spacing, thickness, has_room});
         if (!mesh->sequence) {
             append(*distance_field(mesh->shape, plan.spacing, plan.margin), texels);
             continue;
@@ -167,8 +169,10 @@ std::vector<Compromise> MeshFields::compromises(const SceneDescription& scene) c
             all.push_back(
                 {fmt::format("contact with {}", mesh),
                  fmt::format("it is at most {:.3g} m thick, and distances to it are known every {:.3g} m: cloth "
-                             "may pass through; a \"spacing\" of {:.2g} helps",
-                             each.thickness, each.spacing, each.thickness / 4),
+                             "may pass through; {}",
+                             each.thickness, each.spacing,
+                             each.has_room ? fmt::format("a \"spacing\" of {:.2g} helps", each.thickness / 4)
+                                           : "a thicker mesh, or smaller parts of it, would help"),
                  0});
         else if (each.spacing > 2 * each.wanted)
             all.push_back({fmt::format("detail of {}", mesh),

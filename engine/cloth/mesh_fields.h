@@ -42,6 +42,7 @@ class MeshFields {
         std::size_t collider;    ///< index in the scene's list, which is sorted by kind
         double wanted, spacing;  ///< m
         double thickness;        ///< m: of the body's thickest part, or of a shell
+        bool has_room;           ///< a spacing of a quarter of that has few enough points
     };
 
     class Forms;

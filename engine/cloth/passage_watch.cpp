@@ -19,7 +19,7 @@ namespace {
 double least_half_width(const ColliderShape& shape) {
     const Vec3 size = shape_geometry(shape).size;
     if (std::holds_alternative<Sphere>(shape)) return size[0];
-    if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->shape->inner_radius();
+    if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->shape->inner_radius() + mesh->grown;
     if (std::holds_alternative<Capsule>(shape)) return std::min(size[1], size[2]);
     return *std::ranges::min_element(size);
 }

@@ -103,7 +103,8 @@ Array read_array(const Source& source, const WantedValues& wanted) {
         throw unreadable(where, "its header names no simple type and shape");
     if (header.find("'fortran_order': False") == std::string::npos)
         throw unreadable(where, "its values are in Fortran's order");
-    Array array{{}, *type, shape_of(*shape, where), {}};
+    const bool swapped = type->starts_with('>');
+    Array array{{}, swapped ? "<" + type->substr(1) : *type, shape_of(*shape, where), {}};
     const std::uint64_t value_bytes =
         source.size - std::min(source.size, preamble.size() + std::uint64_t{header_bytes});
     if (array.has_numbers() && value_bytes != array.count() * find_type(array.type)->bytes)
@@ -118,6 +119,9 @@ Array read_array(const Source& source, const WantedValues& wanted) {
     array.bytes.resize(kept);
     if (source.read(reinterpret_cast<char*>(array.bytes.data()), kept) != kept)
         throw unreadable(where, "it ends too early");
+    if (swapped && array.has_numbers())
+        for (auto at = array.bytes.begin(); at != array.bytes.end(); at += find_type(array.type)->bytes)
+            std::reverse(at, at + find_type(array.type)->bytes);
     return array;
 }
 

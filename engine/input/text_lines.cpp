@@ -33,6 +33,7 @@ bool read_vertex(std::string_view line, std::array<double, 3>& vertex) {
     constexpr std::string_view blanks = " \t\r";
     for (double& x : vertex) {
         line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+        if (line.starts_with('+')) line.remove_prefix(1);
         const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), x);
         if (error != std::errc{}) return false;
         line.remove_prefix(static_cast<std::size_t>(end - line.data()));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
 #include <cmath>
@@ -13,6 +14,9 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/output_error.h"
+#include "input/file_source.h"
+#include "input/text_lines.h"
 #include "mesh/mesh_error.h"
 
 namespace Assimp {
@@ -50,6 +54,26 @@ void look_at(const fs::path& path) {
     if (const auto size = fs::file_size(path, code); code || size > mesh_file_byte_limit)
         throw MeshError(fmt::format("expected a mesh file of at most {} bytes, got {} of {}", mesh_file_byte_limit,
                                     path.string(), size));
+}
+
+/// Returns an OBJ file as the library reads it: it takes ".6" and a comment behind a face for errors of other kinds,
+/// and words that are no numbers for numbers.
+std::string obj_text(const fs::path& path) try {
+    input::FileSource file(path);
+    input::Lines lines(file);
+    std::string text;
+    for (std::string_view line; lines.next(line);) {
+        line = line.substr(0, line.find('#'));
+        std::array<double, 3> vertex{};
+        const bool is_vertex = line.starts_with("v ") || line.starts_with("v\t");
+        if (is_vertex && !input::read_vertex(line.substr(1), vertex))
+            throw MeshError(fmt::format("line {} of {}: expected three numbers", lines.number(), path.string()));
+        text += is_vertex ? fmt::format("v {} {} {}", vertex[0], vertex[1], vertex[2]) : line;
+        text += '\n';
+    }
+    return text;
+} catch (const OutputError& error) {
+    throw MeshError(error.what());
 }
 
 /// Triangles of a file as they are gathered, node by node.
@@ -93,7 +117,10 @@ struct Gathered {
 std::shared_ptr<const MeshShape> read(const std::string& path, double scale, std::optional<double> shell) {
     Assimp::Importer importer;
     // No further processing: that of the library stops the program at faces that it does not expect.
-    const aiScene* const scene = importer.ReadFile(path, 0);
+    const bool is_obj = lower_case(fs::path(path).extension().string()) == ".obj";
+    const std::string text = is_obj ? obj_text(path) : std::string();
+    const aiScene* const scene =
+        is_obj ? importer.ReadFileFromMemory(text.data(), text.size(), 0, "obj") : importer.ReadFile(path, 0);
     if (scene == nullptr || scene->mRootNode == nullptr)
         throw MeshError(fmt::format("{} is no mesh: {}", path, importer.GetErrorString()));
     Gathered gathered{path, scale};

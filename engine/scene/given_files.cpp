@@ -184,6 +184,9 @@ bool take_maps(const Members& members, Cloth& cloth) {
         fits = node.member("stiffness").fail("expected springs with a stiffness, got stiffness \"rigid\"");
     if (!tear.empty() && !members["tear"])
         fits = node.member("tear").fail("expected a cloth with tear, whose limit the map scales, got one without");
+    for (const std::string map : {"stiffness", "density", "tear", "friction", "thickness"})
+        if (const SceneNode range = node.member(map + "_range"); range && !node.member(map))
+            fits = range.fail(fmt::format("expected a map of {}, whose values it is about, got none", map));
     if (!fits) return false;
     MapFiles files;
     (void)node.member("stiffness_range").read(std::span<double>(files.stiffness_range), "", map_factor);

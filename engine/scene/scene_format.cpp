@@ -263,7 +263,8 @@ const Object<Cloth> cloth{
         {"contact", &Cloth::contact, choice<ContactOf>(contact_spellings),
          "What stays outside colliders. surface: all that is drawn; particles then lie at sqrt(R^2 + 3 (dx^2 + "
          "dy^2) / 8) from the centre of a ball of radius R where the thickness asks for less, over other round shapes "
-         "likewise. particles: these alone; the cells between them dip in where the thickness does not hide it."},
+         "likewise, over meshes as over a ball of the radius of the largest one inside, over shells of half their "
+         "thickness. particles: these alone; the cells between them dip in where the thickness does not hide it."},
         {"self_collision", &Cloth::self_collision, true_or(self_collision),
          "Whether the cloth meets itself. Once one of a scene's cloths does, all of them meet each other, those "
          "without it as with its defaults. No triangle then passes through one that it meets in any substep; the "

@@ -65,6 +65,10 @@ TEST_F(MapFile, Arrays) {
               (std::vector<float>{1, 0.2f}));
     EXPECT_EQ(written("a.npy", npy_of("<u2", "2, 1", std::vector<std::uint16_t>{65535, 0})).values,
               (std::vector<float>{1, 0}));
+    EXPECT_EQ(written("a.npy", npy_of(">u2", "1, 2", std::vector<std::uint16_t>{0xffff, 0x3333})).values,
+              (std::vector<float>{1, 0.2f}));
+    EXPECT_EQ(written("a.npy", npy_of(">f4", "1, 2", std::vector<std::uint32_t>{0x803f, 0x803e})).values,
+              (std::vector<float>{1, 0.25f}));
     EXPECT_EQ(written("a.npy", npy_of("|b1", "1, 2", std::vector<std::uint8_t>{1, 0})).values,
               (std::vector<float>{1, 0}));
 }

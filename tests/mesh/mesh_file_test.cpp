@@ -100,16 +100,16 @@ TEST(MeshFileTest, EveryKindOfFileIsRead) {
 TEST(MeshFileTest, QuadsAreCutAndPartsAreJoined) {
     expect_the_box(file_with("quads.obj", R"(
 o lower
-v -0.3 -0.2 -0.5
-v 0.3 -0.2 -0.5
+v -.3 -0.2 -0.5
+v +.3 -0.2 -.5
 v -0.3 0.2 -0.5
 v 0.3 0.2 -0.5
 v -0.3 -0.2 0.5
 v 0.3 -0.2 0.5
 v -0.3 0.2 0.5
 v 0.3 0.2 0.5
-f 1 5 7 3
-f 2 4 8 6
+f 1 5 7 3 # left
+f 2 4 8 6#right
 o upper
 f 1 2 6 5
 f 3 7 8 4
@@ -130,6 +130,8 @@ TEST(MeshFileTest, FilesThatAreNoMeshesAreRefused) {
     EXPECT_THAT(refusal("missing.obj"), HasSubstr("cannot read missing.obj: "));
     EXPECT_THAT(refusal(testing::TempDir()), HasSubstr("it is not a file"));
     EXPECT_THAT(refusal(file_with("notes.txt", "v 0 0 0")), HasSubstr("ends in .obj, .ply, .stl, .gltf or .glb"));
+    EXPECT_THAT(refusal(file_with("comma.obj", "v 0 0 0\nv 0,5 0 0\nv 0 1 0\nf 1 2 3\n")),
+                HasSubstr("line 2 of comma.obj: expected three numbers"));
     EXPECT_THAT(refusal(file_with("words.obj", "once upon a time")), HasSubstr("words.obj"));
     EXPECT_THAT(refusal(file_with("empty.ply", "")), HasSubstr("empty.ply is no mesh"));
     EXPECT_THAT(refusal(file_with("cut.ply", ascii_ply(test::box_mesh(half)).substr(0, 260))), HasSubstr("cut.ply"));

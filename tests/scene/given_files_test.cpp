@@ -316,6 +316,8 @@ TEST_F(GivenFiles, WhatIsWrongWithAMapOfParticlesIsSaidWhereItIsNamed) {
     write_text(folder_ / "map.png", grey_png(1, {9}));
     EXPECT_THAT(errors(R"("maps": {"thickness": "map.png", "thickness_range": [0, 1]})"),
                 ElementsAre(HasSubstr("/thickness_range/0: expected a number in [0.001, 1000], got 0")));
+    EXPECT_THAT(errors(R"("maps": {"thickness_range": [1, 2]})"),
+                ElementsAre(HasSubstr("/maps/thickness_range: expected a map of thickness")));
     EXPECT_THAT(errors(R"("maps": {"friction": "map.png", "friction_range": [0, -1]})"),
                 ElementsAre(HasSubstr("/friction_range/1: expected a number in [0, 1000], got -1")));
     EXPECT_THAT(errors(R"("self_collision": {"thickness": 9}, "maps": {"thickness": "map.png"})"),
