@@ -18,7 +18,7 @@ RestEdge sum_of(const RestEdge& one, const RestEdge& other, float sign) {
     return {other.rest + one.rest * sign, other.start + one.start * sign, other.now + one.now * sign};
 }
 
-/// What bending elements are at rest is read off the cloth through this.
+/// The rest of bending elements is read off the cloth through this.
 struct RestShape {
     const ClothModel& model;
     const TwinCloth& state;

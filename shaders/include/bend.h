@@ -12,7 +12,7 @@ SHARED vec3 second_difference(vec3 edge_to_first, vec3 edge_to_third) {
     return difference;
 }
 
-/// What a difference has more than at rest, m.
+/// Returns by how much a difference is beyond that at rest, m.
 SHARED vec3 beyond_rest(vec3 difference, vec3 target) {
     precise vec3 beyond = difference - target;
     return beyond;

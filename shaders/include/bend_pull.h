@@ -1,5 +1,5 @@
-// What a particle feels of the elements in whose tangents it is (rest_bend.h), where a cloth rests bent: they turn with
-// it. The includer is MASKED, and has include/bend_target.h and include/rest_bend.h.
+// A particle feels the elements in whose tangents it is (rest_bend.h), where a cloth rests bent: they turn with it. The
+// includer is MASKED, and has include/bend_target.h and include/rest_bend.h.
 vec3 bend_pull(ivec2 texel) {
     ivec2 left = texel - ivec2(1, 0), up = texel - ivec2(0, 1), last = push.grid - 1;
     vec4 shares = LOAD(spring_shares, texel);
@@ -8,13 +8,17 @@ vec3 bend_pull(ivec2 texel) {
     if (texel.y > 0) acts_up = LOAD(spring_shares, up).y > 0.0f ? 1.0f : 0.0f;
     if (texel.x < last.x) acts_right = shares.x > 0.0f ? 1.0f : 0.0f;
     if (texel.y < last.y) acts_down = shares.y > 0.0f ? 1.0f : 0.0f;
+    precise float own_row = acts_left - acts_right;
+    precise float own_column = acts_up - acts_down;
+    precise float of_right = -acts_right;
+    precise float of_below = -acts_down;
     vec3 sum = vec3(0.0f, 0.0f, 0.0f);
-    sum = add_pull_of(sum, bend_part(texel, bend_pull_row), acts_left - acts_right);
-    sum = add_pull_of(sum, bend_part(texel, bend_pull_column), acts_up - acts_down);
+    sum = add_pull_of(sum, bend_part(texel, bend_pull_row), own_row);
+    sum = add_pull_of(sum, bend_part(texel, bend_pull_column), own_column);
     if (texel.x > 0) sum = add_pull_of(sum, bend_part(left, bend_pull_row), acts_left);
-    if (texel.x < last.x) sum = add_pull_of(sum, bend_part(texel + ivec2(1, 0), bend_pull_row), -acts_right);
+    if (texel.x < last.x) sum = add_pull_of(sum, bend_part(texel + ivec2(1, 0), bend_pull_row), of_right);
     if (texel.y > 0) sum = add_pull_of(sum, bend_part(up, bend_pull_column), acts_up);
-    if (texel.y < last.y) sum = add_pull_of(sum, bend_part(texel + ivec2(0, 1), bend_pull_column), -acts_down);
+    if (texel.y < last.y) sum = add_pull_of(sum, bend_part(texel + ivec2(0, 1), bend_pull_column), of_below);
     // Cells, by the corner that the particle is; those that the grid lacks are not pulled.
     sum = add_pull_of(sum, bend_part(texel, twist_pull_row), -1.0f);
     sum = add_pull_of(sum, bend_part(texel, twist_pull_column), -1.0f);

@@ -1,5 +1,6 @@
-// What bending elements are at rest, in the substep at hand (bend_targets.comp). The image is bend_parts times as wide
-// as the grid; texels of elements along rows and columns are their middle particle's, those of cells their corner's.
+// The image of what bending elements are at rest, in the substep at hand (bend_targets.comp), is bend_parts times as
+// wide as the grid; texels of elements along rows and columns are their middle particle's, those of cells their
+// corner's.
 #include "include/rest_length.h"
 #ifdef MASKED
 layout(set = 0, binding = 17, rgba32f) uniform readonly image2D bend_targets;

@@ -131,7 +131,7 @@ TEST(MeshFileTest, FilesThatAreNoMeshesAreRefused) {
     EXPECT_THAT(refusal(testing::TempDir()), HasSubstr("it is not a file"));
     EXPECT_THAT(refusal(file_with("notes.txt", "v 0 0 0")), HasSubstr("ends in .obj, .ply, .stl, .gltf or .glb"));
     EXPECT_THAT(refusal(file_with("comma.obj", "v 0 0 0\nv 0,5 0 0\nv 0 1 0\nf 1 2 3\n")),
-                HasSubstr("line 2 of comma.obj: expected three numbers"));
+                AllOf(HasSubstr("line 2 of "), HasSubstr("comma.obj: expected three numbers")));
     EXPECT_THAT(refusal(file_with("words.obj", "once upon a time")), HasSubstr("words.obj"));
     EXPECT_THAT(refusal(file_with("empty.ply", "")), HasSubstr("empty.ply is no mesh"));
     EXPECT_THAT(refusal(file_with("cut.ply", ascii_ply(test::box_mesh(half)).substr(0, 260))), HasSubstr("cut.ply"));

@@ -193,7 +193,7 @@ TEST(RestBendTest, ARollThatTurnsGoesOnTurning) {
     }
 }
 
-/// What is left of a cloth that is cut along a row of particles has no side: it bends as much as at rest, any way.
+/// The strand that is left of a cloth cut along a row of particles has no side: it bends as much as at rest, any way.
 TEST(RestBendTest, AStrandIsAsLongAtRestAnyWayItBends) {
     const glsl::vec3 rest{0, 0.3f, 0.4f}, along{1, 0, 0}, none{0, 0, 0}, now{0, -2, 0};
     const glsl::vec4 coordinates = glsl::rest_coordinates(rest, glsl::Tangents(along, none));
