@@ -240,7 +240,7 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
         command, "--kernels", "plain|auto|NAME,...",
         "The shaders that do a step's work: `plain` runs one pass per step, `auto` (the default) takes faster ones "
         "that "
-        "suit the device and the scene, to the same bits but for cyclic reduction; `drape graph` names them and says "
+        "suit the device and the scene, to the same bits but for those of lines; `drape graph` names them and says "
         "why each is used or not",
         [&scene](const std::string& text) {
             const auto kernels = Kernels::parse(text);

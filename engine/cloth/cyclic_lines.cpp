@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/cyclic_types.h"
+#include "shared/parts_types.h"
 
 namespace drape {
 
@@ -16,6 +17,18 @@ std::uint32_t row_bytes(bool bent) {
 
 /// Shared memory of a workgroup for what it reports of its lines, bytes.
 constexpr std::uint32_t report_bytes = glsl::cyclic_least_invocations / glsl::cyclic_least_width * sizeof(glsl::uint);
+
+/// Particles of a line that a subgroup has.
+int particles_of_part(std::uint32_t subgroup) {
+    return static_cast<int>(subgroup) / glsl::part_lines * glsl::part_particles;
+}
+
+/// Shared memory of a subgroup that has parts of lines (shaders/line_parts.comp, part_group.h), bytes.
+std::uint32_t bytes_of_parts(std::uint32_t subgroup) {
+    constexpr auto particle = static_cast<std::uint32_t>(glsl::part_particles * sizeof(float)),
+                   part = static_cast<std::uint32_t>(6 * sizeof(glsl::vec4) + 2 * sizeof(glsl::vec2));
+    return subgroup * particle + glsl::part_lines * part;
+}
 
 }  // namespace
 
@@ -37,6 +50,19 @@ glsl::ivec2 cyclic_group(int particle_count) {
     constexpr int step = glsl::cyclic_least_width;
     const int width = (particle_count + step - 1) / step * step;
     return {width, std::max(1, glsl::cyclic_least_invocations / width)};
+}
+
+bool can_part(const glsl::LinePush& push, const GroupLimits& limits) {
+    // Every subgroup solves what is left of all parts, with a lane for each of a line's.
+    constexpr auto reports = static_cast<std::uint32_t>(glsl::part_lines * sizeof(glsl::uint));
+    const std::uint32_t lanes = limits.subgroup / glsl::part_lines,
+                        held = (limits.shared_bytes - reports) / bytes_of_parts(limits.subgroup),
+                        parts = std::min({lanes, held, limits.invocations / limits.subgroup});
+    return push.bend == 0 && push.particle_count <= static_cast<int>(parts) * particles_of_part(limits.subgroup);
+}
+
+std::uint32_t parts_group(int particle_count, std::uint32_t subgroup) {
+    return static_cast<std::uint32_t>((particle_count - 1) / particles_of_part(subgroup) + 1) * subgroup;
 }
 
 }  // namespace drape

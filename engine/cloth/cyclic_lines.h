@@ -21,4 +21,12 @@ std::uint32_t cyclic_shared_bytes(std::uint32_t invocations, bool bent);
 /// several where lines are short.
 glsl::ivec2 cyclic_group(int particle_count);
 
+/// Returns whether lines can be solved in parts (shaders/line_parts.comp): they do not bend, and a workgroup holds two
+/// of them, of up to 2048 particles with subgroups of 32 in 32 KiB of shared memory, 1664 in 16 KiB, 128 with subgroups
+/// of 8.
+bool can_part(const glsl::LinePush& push, const GroupLimits& limits);
+
+/// Returns the invocations of a workgroup that solves lines of so many particles in parts.
+std::uint32_t parts_group(int particle_count, std::uint32_t subgroup);
+
 }  // namespace drape

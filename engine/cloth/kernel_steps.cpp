@@ -6,6 +6,7 @@
 
 #include "cloth/cyclic_lines.h"
 #include "cloth/frame_steps.h"
+#include "shared/parts_types.h"
 #include "shared/stream_types.h"
 #include "shared/tile_types.h"
 
@@ -121,11 +122,20 @@ void stream_single_steps(const SimulationModel& model, std::vector<Step>& steps)
             step.kernel = Kernel::explicit_stream;
 }
 
+/// Long lines are solved in parts, others by reduction.
 void reduce_lines(const Kernels& kernels, std::vector<Step>& steps) {
-    for (Step& step : steps)
-        if (step.kind == StepKind::line && kernels.has(Kernel::line_cyclic) &&
-            can_reduce(step.push<glsl::LinePush>(), kernels.group))
+    for (Step& step : steps) {
+        if (step.kind != StepKind::line) continue;
+        const auto& push = step.push<glsl::LinePush>();
+        const bool can_reduce_it = kernels.has(Kernel::line_cyclic) && can_reduce(push, kernels.group);
+        if (kernels.has(Kernel::line_parts) && can_part(push, kernels.group) &&
+            (!can_reduce_it || push.particle_count > glsl::parts_least_particles)) {
+            step.kernel = Kernel::line_parts;
+            step.subgroup = kernels.group.subgroup;
+        } else if (can_reduce_it) {
             step.kernel = Kernel::line_cyclic;
+        }
+    }
 }
 
 }  // namespace

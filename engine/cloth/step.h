@@ -103,6 +103,8 @@ struct Step {
     bool turns = false;
     /// The kernel of its row that runs it (cloth/kernel_steps.h).
     Kernel kernel = Kernel::plain;
+    /// Invocations of a subgroup where that has parts of a step's lines, else 0.
+    std::uint32_t subgroup = 0;
     /// It is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
     /// The constants of each of those; none: all have the same.

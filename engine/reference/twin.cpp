@@ -74,7 +74,8 @@ std::span<const std::byte> TwinCloth::bytes(Field field) const {
 }
 
 Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model) {
-    if (kernels.has(Kernel::line_cyclic)) kernels_.add(Kernel::line_cyclic);
+    for (const Kernel each : {Kernel::line_parts, Kernel::line_cyclic})  // the others leave the plain ones' bits
+        if (kernels.has(each)) kernels_.add(each);
     kernels_.group = kernels.group;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
     if (model.self_contact) contact_.emplace(*model.self_contact);

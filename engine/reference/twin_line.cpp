@@ -63,6 +63,7 @@ namespace {
 /// A line as the shader sees it.
 struct LineView {
     const ClothModel& model;
+    const Step& step;
     const LinePush& push;
     const TwinCloth& state;
     std::vector<ivec2> particles;
@@ -70,8 +71,8 @@ struct LineView {
     std::vector<vec3> delta;       ///< changes that the first system made, m
     std::vector<float> tension{};  ///< by spring, as the first system leaves it: extension by the compliance in use, m
 
-    LineView(const ClothModel& cloth, const LinePush& pass, const TwinCloth& images, int line)
-        : model(cloth), push(pass), state(images), particles{line_start(line, pass.step)} {
+    LineView(const ClothModel& cloth, const Step& pass, const TwinCloth& images, int line)
+        : model(cloth), step(pass), push(pass.push<LinePush>()), state(images), particles{line_start(line, push.step)} {
         for (int p = 1; p < push.particle_count; ++p)
             particles.push_back(next_on_line(particles.back(), push.step, push.grid.x));
         for (std::size_t p = 0; p < particles.size(); ++p) moved.push_back(displacement(p));
@@ -82,7 +83,16 @@ struct LineView {
     float weight(std::size_t particle) const { return state.dragged_weight_of(index(particle)); }
     vec3 displacement(std::size_t particle) const { return xyz(state[Field::displacement][index(particle)]); }
     vec3 start(std::size_t particle) const { return xyz(state[Field::position][index(particle)]); }
-    vec3 edge(std::size_t e) const { return spring_edge(start(e), start(e + 1), moved[e], moved[e + 1]); }
+    /// Lines in parts keep the edges and not the displacements.
+    bool in_parts() const { return step.kernel == Kernel::line_parts; }
+    vec3 edge(std::size_t e) const {
+        if (!in_parts()) return spring_edge(start(e), start(e + 1), moved[e], moved[e + 1]);
+        const vec3 before = spring_edge(start(e), start(e + 1), displacement(e), displacement(e + 1));
+        return before + (delta[e + 1] - delta[e]);
+    }
+    std::vector<vec3> reduced(const std::vector<CyclicRow>& rows) const {
+        return in_parts() ? reduced_in_parts(rows, step.subgroup) : drape::reduced(rows);
+    }
     LineSpring spring(std::size_t e) const { return line_spring(edge(e), rest_length(e)); }
     float rest_length(std::size_t e) const { return model.rest_length(push.rest_length, index(e), push.channel); }
     /// Returns the target of bending at a place; places before the first, wrapped around, have the first's.
@@ -134,7 +144,7 @@ std::vector<vec3> reduced_deltas(const LineView& line, const std::vector<float>&
         edge_before = edge;
         stiffness_before = after;
     }
-    return reduced(rows);
+    return line.reduced(rows);
 }
 
 /// Solves the first system of a line that bends by cyclic reduction.
@@ -177,14 +187,14 @@ std::vector<vec3> bent_deltas(const LineView& line, const std::vector<float>& st
 }
 
 /// Lets the tension of the last substep and the bending resist, and follows the tension to where the particles are now.
-void filter(LineView& line, float compliance, float followed, bool by_reduction, float bend) {
+void filter(LineView& line, float compliance, float followed, float bend) {
     std::vector<float> per_length, stiffness;
     for (std::size_t e = 0; e < line.spring_count(); ++e) {
         per_length.push_back(
             tension_per_length(line.last_tension(e, followed), line.start(e + 1) - line.start(e), line.rest_length(e)));
         stiffness.push_back(geometric_stiffness(per_length[e], line.share(e), reciprocal(compliance)));
     }
-    if (by_reduction)
+    if (line.step.kernel != Kernel::plain)
         line.delta = bend > 0 ? reduced_bent_deltas(line, stiffness, bend) : reduced_deltas(line, stiffness);
     else
         line.delta = bend > 0 ? bent_deltas(line, stiffness, bend) : tension_deltas(line, stiffness);
@@ -228,7 +238,7 @@ std::vector<float> reduced_changes(const LineView& line, const std::vector<LineS
                                   line.weight(e + 1), share, compression, compliance, line.tension[e]));
     }
     std::vector<float> changes;
-    for (const vec3& change : reduced(rows)) changes.push_back(change.x);
+    for (const vec3& change : line.reduced(rows)) changes.push_back(change.x);
     return changes;
 }
 
@@ -237,23 +247,23 @@ std::vector<float> reduced_changes(const LineView& line, const std::vector<LineS
 void run_line(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<LinePush>();
-    const bool by_reduction = step.kernel == Kernel::line_cyclic;
     const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
     const float compliance = is_bdf2 ? push.compliance_bdf2 : push.compliance;
     const float followed = is_bdf2 ? push.followed_bdf2 : push.followed;
     std::vector<float>& stored = state.tension(static_cast<std::size_t>(push.channel));
     for (int k = 0; k < push.line_count; ++k) {
-        LineView line(model, push, state, k);
+        LineView line(model, step, state, k);
         if (step.iteration == 0)
-            filter(line, compliance, followed, by_reduction, is_bdf2 ? push.bend_bdf2 : push.bend);
+            filter(line, compliance, followed, is_bdf2 ? push.bend_bdf2 : push.bend);
         else
             for (std::size_t e = 0; e < line.spring_count(); ++e)
                 line.tension.push_back(line.last_tension(e, followed));
         std::vector<LineSpring> springs;
         for (std::size_t e = 0; e < line.spring_count(); ++e) springs.push_back(line.spring(e));
         float largest = 0;
-        const std::vector<float> change = by_reduction ? reduced_changes(line, springs, compliance, largest)
-                                                       : solve(line, springs, compliance, largest);
+        const std::vector<float> change = step.kernel != Kernel::plain
+                                              ? reduced_changes(line, springs, compliance, largest)
+                                              : solve(line, springs, compliance, largest);
         if (line_is_wrong(largest, push.rest_length)) ++state.integers(Field::line_control)[control_wrong_lines];
         const vec3 none{0, 0, 0};
         for (std::size_t p = 0; p < line.particles.size(); ++p) {

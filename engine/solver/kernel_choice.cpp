@@ -8,6 +8,7 @@
 #include "cloth/kernel_steps.h"
 #include "graph/executor.h"
 #include "shared/line_types.h"
+#include "shared/parts_types.h"
 #include "shared/stream_types.h"
 #include "shared/tile_types.h"
 #include "vulkan/api.h"
@@ -83,14 +84,22 @@ std::string tile_obstacle(const vulkan::Device& device, const SimulationModel&) 
     return {};
 }
 
-/// Workgroups are as large as the lines that they hold, and others are walked (cyclic_most).
+/// Workgroups are as large as the lines that they hold, and others are walked (cyclic_lines.h).
 std::string no_obstacle(const vulkan::Device&, const SimulationModel&) { return {}; }
+
+/// Why no workgroup can hold lines in parts, each of a full subgroup's.
+std::string parts_obstacle(const vulkan::Device& device, const SimulationModel&) {
+    constexpr std::uint32_t least = 4 * glsl::part_lines;
+    const bool has_least = device.subgroup() >= least && device.shuffles(device.subgroup());
+    if (!has_least) return fmt::format("the device has no subgroups of {} and more that shuffle", least);
+    return device.full_subgroups() ? std::string() : "the device does not promise full subgroups";
+}
 
 /// Returns the workgroups that kernels ask for, as far as a device has them.
 GroupLimits group_limits(const vulkan::Device& device, const GroupLimits& asked) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     return {std::min({asked.invocations, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]}),
-            std::min(asked.shared_bytes, limits.maxComputeSharedMemorySize)};
+            std::min(asked.shared_bytes, limits.maxComputeSharedMemorySize), device.subgroup()};
 }
 
 /// A kernel, the kind of device that it is the fastest on (`drape bench speed --tune` measures it), the kernel that it
@@ -117,6 +126,8 @@ constexpr KernelRule rules[] = {
      "a particle is loaded and stored once instead of four times"},
     {Kernel::twist_tile, DeviceKind::gpu, Kernel::plain, tile_obstacle<glsl::sweep_tile_width>,
      "shared memory holds the particles for all four passes"},
+    {Kernel::line_parts, DeviceKind::gpu, Kernel::plain, parts_obstacle,
+     "long lines are held in registers, several particles by an invocation"},
     {Kernel::line_cyclic, DeviceKind::gpu, Kernel::plain, no_obstacle,
      "a line waits for memory some log n times instead of 3 n times"},
 };
@@ -178,7 +189,7 @@ Kernels used_kernels(const SimulationModel& model, const Kernels& kernels) {
 }
 
 bool concerns(const KernelSet& set, SolverMethod method) {
-    return set.name != "cyclic" || method == SolverMethod::line;
+    return (set.name != "cyclic" && set.name != "parts") || method == SolverMethod::line;
 }
 
 std::vector<KernelVerdict> kernel_verdicts(const vulkan::Device& device, const SimulationModel& model,

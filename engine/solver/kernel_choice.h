@@ -31,6 +31,7 @@ inline const KernelSet all_kernel_sets[] = {
     {"stream", stream_kernels},
     {"tile", tile_kernels},
     {"cyclic", cyclic_kernels},
+    {"parts", parts_kernels},
 };
 /// Returns whether a method, not `automatic`, may have a step that such kernels do.
 bool concerns(const KernelSet& set, SolverMethod method);

@@ -23,6 +23,8 @@ glsl::ivec2 group_of_lines(Place p) { return cyclic_group(p.step.push<glsl::Line
 
 std::uint32_t group_width(Place p) {
     if (p.step.kind == StepKind::nested) return nested_group(p);
+    if (p.step.kernel == Kernel::line_parts)
+        return parts_group(p.step.push<glsl::LinePush>().particle_count, p.step.subgroup);
     return static_cast<std::uint32_t>(group_of_lines(p).x);
 }
 
@@ -35,6 +37,7 @@ constexpr ConstantRow constant_rows[] = {
     {"advance", [](Place p) { return p.step.substep > 0 ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
+    {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
     {"touches", [](Place p) { return p.cloth->model->touches ? 1u : 0u; }},
     {"directions", direction_bits},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},

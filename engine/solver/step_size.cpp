@@ -5,6 +5,7 @@
 #include "cloth/cyclic_lines.h"
 #include "cloth/kernel_steps.h"
 #include "cloth/nested_boxes.h"
+#include "shared/parts_types.h"
 #include "shared/residual_types.h"
 #include "shared/stream_types.h"
 
@@ -120,6 +121,11 @@ DispatchSize over_lines(const StepPlace& place, const ComputePipeline&) {
 DispatchSize over_line_particles(const StepPlace& place, const ComputePipeline&) {
     const auto& push = place.step.push<glsl::LinePush>();
     return of_cloths(place, whole(cyclic_group(push.particle_count).x), whole(push.line_count));
+}
+
+DispatchSize over_line_parts(const StepPlace& place, const ComputePipeline& pipeline) {
+    const auto& push = place.step.push<glsl::LinePush>();
+    return of_cloths(place, pipeline.local_size()[0], parts(whole(push.line_count), glsl::part_lines));
 }
 
 DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pipeline) {

@@ -118,6 +118,7 @@ void Device::read_limits() {
     max_allocation_size_ = properties11.maxMemoryAllocationSize;
     const bool shuffles = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
                           (properties11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
+    subgroup_ = properties11.subgroupSize;
     shuffling_lanes_ = shuffles ? properties11.subgroupSize : 0;
 
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
@@ -133,9 +134,13 @@ void Device::read_limits() {
 void Device::read_features(const OptionalFeatures& asked) {
     auto features12 =
         structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
+    auto features13 =
+        structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+    features12.pNext = &features13;
     auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     all.pNext = &features12;
     vkGetPhysicalDeviceFeatures2(physical_, &all);
+    full_subgroups_ = features13.computeFullSubgroups == VK_TRUE;
     wide_integers_ = all.features.shaderInt64 == VK_TRUE;
     wide_atomics_ = asked.wide_atomics && wide_integers_ && features12.shaderBufferInt64Atomics == VK_TRUE;
     samples_in_shaders_ = asked.samples_in_shaders && all.features.shaderStorageImageMultisample == VK_TRUE &&
@@ -151,6 +156,7 @@ void Device::create() {
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
+    features13.computeFullSubgroups = full_subgroups_ ? VK_TRUE : VK_FALSE;
     features13.pNext = &features12;
     VkPhysicalDeviceFeatures features{};
     features.shaderClipDistance = VK_TRUE;

@@ -70,6 +70,10 @@ class Device {
     bool samples_in_shaders() const { return samples_in_shaders_; }
     /// Returns whether subgroups of compute shaders have so many invocations and can shuffle.
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
+    /// Returns how many invocations a subgroup has.
+    std::uint32_t subgroup() const { return subgroup_; }
+    /// Returns whether compute shaders can be promised that all of theirs are full.
+    bool full_subgroups() const { return full_subgroups_; }
     std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
     std::uint64_t max_buffer_size() const { return max_buffer_size_; }
     std::uint64_t max_allocation_size() const { return max_allocation_size_; }
@@ -121,6 +125,8 @@ class Device {
     bool wide_integers_ = false;
     bool wide_atomics_ = false;
     bool samples_in_shaders_ = false;
+    bool full_subgroups_ = false;
+    std::uint32_t subgroup_ = 0;
     std::uint32_t shuffling_lanes_ = 0;  ///< lanes of a subgroup; 0 where they cannot shuffle
     std::uint64_t max_buffer_size_ = 0;
     std::uint64_t max_allocation_size_ = 0;

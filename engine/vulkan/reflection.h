@@ -50,6 +50,9 @@ struct ReflectedDescriptor {
 /// The constants of a workgroup size given by local_size_x_id, ... have these names.
 inline constexpr std::array<std::string_view, 3> local_size_names = {"local_size_x", "local_size_y", "local_size_z"};
 
+/// A shader that has this constant needs full subgroups, and is told by it how many invocations they have.
+inline constexpr std::string_view subgroup_constant = "subgroup_lanes";
+
 struct ReflectedModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_ALL;
     std::vector<ReflectedDescriptor> descriptors;

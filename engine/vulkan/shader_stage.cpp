@@ -96,6 +96,8 @@ VkPipelineShaderStageCreateInfo ShaderStage::create_info() const {
     info.module = module_;
     info.pName = "main";
     info.pSpecializationInfo = &specialization_;
+    if (reflected_.constants.contains(subgroup_constant))
+        info.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
     return info;
 }
 

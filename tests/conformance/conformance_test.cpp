@@ -106,11 +106,13 @@ class Conformance : public testing::TestWithParam<Case> {};
 TEST_P(Conformance, EveryStep) {
     const auto& [scene, kernel] = GetParam();
     const vulkan::Device& device = test::gpu().device;
-    test::TwinWithCuts twin(scene->scene, {kernel.kernel});
+    Kernels kernels{kernel.kernel};
+    kernels.group.subgroup = device.subgroup();
+    test::TwinWithCuts twin(scene->scene, kernels);
     Judge judge(twin.model(), device_kind(device.info()) == DeviceKind::cpu);
     for (std::uint32_t frame = 0; frame <= scene->lead; ++frame) twin.run_frame(frame);
     try {
-        test::SingleSteps steps(device, twin.model(), {kernel.kernel}, twin.twin());
+        test::SingleSteps steps(device, twin.model(), kernels, twin.twin());
         steps.run_frame(scene->lead + 1, [&](const auto& taken, const auto& fields) { judge.judge(taken, fields); });
     } catch (const vulkan::VulkanError& error) {
         GTEST_SKIP() << error.what();

@@ -68,6 +68,7 @@ TEST(TwinTogetherTest, Lines) {
         for (const KernelSet& set : all_kernel_sets) EXPECT_TRUE(are_together(each, set.kernels)) << set.name;
         compare(each);
         compare_by(cyclic_kernels, each);
+        compare_by(parts_kernels, each);
     }
 }
 

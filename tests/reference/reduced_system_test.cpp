@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
+#include "cloth/cyclic_lines.h"
+#include "cloth/kernel_steps.h"
 #include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
@@ -83,17 +86,26 @@ struct TensionSystem {
     }
 };
 
-/// The springs' pull is rounded, which both ways begin with, so neither has more digits than it leaves.
+using Rows = std::vector<CyclicRow>;
+/// An invocation per row, and in parts, by subgroups of the default device and of GPUs.
+constexpr std::array<std::vector<vec3> (*)(const Rows&), 3> solutions{
+    [](const Rows& rows) { return reduced(rows); }, [](const Rows& rows) { return reduced_in_parts(rows, 8); },
+    [](const Rows& rows) { return reduced_in_parts(rows, 32); }};
+
+/// The springs' pull is rounded, which all ways begin with, so neither has more digits than it leaves.
 TEST_P(ReducedSystem, OfTensionIsAsExactAsALineThatIsWalked) {
     for (const float stiffest : {1e-3f, 1.0f, 1e3f, 1e6f})
         for (const bool held : {false, true}) {
-            double walked = 0, reduction = 0;
+            double walked = 0;
+            std::array<double, solutions.size()> errors{};
             for (int sample = 0; sample < 20; ++sample) {
                 const TensionSystem system(*this, GetParam(), stiffest, held);
                 walked = std::max(walked, relative_error(system.walked(), system.exact));
-                reduction = std::max(reduction, relative_error(reduced(system.rows), system.exact));
+                for (std::size_t k = 0; k < solutions.size(); ++k)
+                    errors[k] = std::max(errors[k], relative_error(solutions[k](system.rows), system.exact));
             }
-            EXPECT_LT(reduction, 3 * walked + 3e-7) << "stiffness " << stiffest << ", held " << held;
+            for (const double error : errors)
+                EXPECT_LT(error, 3 * walked + 3e-7) << "stiffness " << stiffest << ", held " << held;
         }
 }
 
@@ -127,20 +139,64 @@ TEST_P(ReducedSystem, OfSpringsIsWhatIsEliminatedInDoublePrecision) {
             exact.diagonal.push_back(there ? acting * (double(weights[e]) + weights[e + 1]) + compliance : 1);
             exact.right.push_back(there ? -(shares[e] * (balance - 1e-3f)) : 0);
         }
-        EXPECT_LT(relative_error(reduced(rows), exact), 2e-5) << "compliance " << compliance;
+        for (const auto& solved : solutions)
+            EXPECT_LT(relative_error(solved(rows), exact), 2e-5) << "compliance " << compliance;
     }
 }
 
 // The lengths are one spring, whole powers of two and one beside them, and the longest that a workgroup takes.
 INSTANTIATE_TEST_SUITE_P(Rows, ReducedSystem, testing::Values(2, 3, 4, 31, 32, 33, 257, 1024));
 
-TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
+TEST(Parts, AreOfLinesThatAWorkgroupHoldsAndThatDoNotBend) {
+    const auto longest = [](const GroupLimits& limits) {
+        LinePush push{};
+        push.particle_count = 1;
+        while (can_part(push, limits)) ++push.particle_count;
+        return push.particle_count - 1;
+    };
+    EXPECT_EQ(longest({}), 128);
+    EXPECT_EQ(longest({1024, 32768, 32}), 2048);
+    EXPECT_EQ(longest({1024, 16384, 32}), 1664);
+    EXPECT_EQ(longest({128, 16384, 32}), 512);
+    EXPECT_EQ(parts_group(1024, 32), 256u);
+    EXPECT_EQ(parts_group(1025, 32), 288u);
+    LinePush bending{};
+    bending.particle_count = 64;
+    bending.bend = 1e-6f;
+    EXPECT_FALSE(can_part(bending, {}));
+}
+
+TEST(Parts, AreTakenForLongLines) {
+    const auto kernel_of_rows = [](std::uint32_t columns, float bend) {
+        SceneDescription scene = test::sheet(columns, 2, 1, 0.1, 1);
+        scene.solver.method = SolverMethod::line;
+        scene.cloths[0].stiffness.bend = bend;
+        Kernels kernels{Kernel::line_parts, Kernel::line_cyclic};
+        kernels.group.subgroup = 32;
+        const auto steps = kernel_steps(SimulationModel(scene), kernels);
+        return std::ranges::find_if(steps,
+                                    [&](const Step& step) {
+                                        return step.kind == StepKind::line &&
+                                               step.push<LinePush>().particle_count == static_cast<int>(columns);
+                                    })
+            ->kernel;
+    };
+    EXPECT_EQ(kernel_of_rows(256, 0), Kernel::line_cyclic);
+    EXPECT_EQ(kernel_of_rows(257, 0), Kernel::line_parts);
+    EXPECT_EQ(kernel_of_rows(2048, 0), Kernel::line_parts);
+    EXPECT_EQ(kernel_of_rows(2049, 0), Kernel::plain);
+    EXPECT_EQ(kernel_of_rows(257, 1e-12f), Kernel::line_cyclic);
+}
+
+class ReducedLines : public testing::TestWithParam<KernelName> {};
+
+TEST_P(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
     SceneDescription scene = test::sheet(49, 49, 1, 1, 6);
     scene.solver.method = SolverMethod::line;
     scene.cloths[0].placement.v = {0, 0, 1};
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(48, 0, 48, 0)};
     const SimulationModel model(scene);
-    Twin walked(model), reduced(model, cyclic_kernels);
+    Twin walked(model), reduced(model, {GetParam().kernel});
     double distance = 0;
     for (std::uint32_t frame = 1; frame <= 12; ++frame) {
         walked.run_frame(frame);
@@ -152,6 +208,11 @@ TEST(ReducedLines, MoveASheetAsWalkedLinesDoUpToRounding) {
     EXPECT_GT(distance, 0) << "nothing was reduced";
     EXPECT_LT(distance, 2e-5);
 }
+
+INSTANTIATE_TEST_SUITE_P(By, ReducedLines,
+                         testing::Values(KernelName{"line_parts", Kernel::line_parts},
+                                         KernelName{"line_cyclic", Kernel::line_cyclic}),
+                         [](const auto& kernel) { return std::string(kernel.param.name); });
 
 }  // namespace
 }  // namespace drape

@@ -1,5 +1,5 @@
 // The kernels, shaders that do a step's work, that a simulation may use. Every step has a plain kernel; faster ones
-// give the same bits, except those of cyclic reduction, which rounds otherwise.
+// give the same bits, except those that solve lines otherwise than by walking along them, which round otherwise.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,7 @@ enum class Kernel : std::uint8_t {
     spring_tile,      ///< all springs of a relaxation iteration, in tiles of shared memory
     twist_stream,     ///< the twist of all cells, down the rows
     twist_tile,       ///< the twist of all cells, in tiles of shared memory
+    line_parts,       ///< long lines in parts, some particles per invocation: other rounding
     line_cyclic,      ///< lines by cyclic reduction, an invocation per particle: other rounding
 };
 
@@ -37,13 +38,15 @@ inline constexpr KernelName kernel_names[] = {
     {"spring_tile", Kernel::spring_tile},
     {"twist_stream", Kernel::twist_stream},
     {"twist_tile", Kernel::twist_tile},
+    {"line_parts", Kernel::line_parts},
     {"line_cyclic", Kernel::line_cyclic},
 };
 inline constexpr std::string_view name_of(Kernel kernel) { return kernel_names[static_cast<std::size_t>(kernel)].name; }
 
-/// How large the workgroups may be that a kernel sizes by the scene. A device may allow less.
+/// How large the workgroups may be that a kernel sizes by the scene, of which a device may allow less, and how many
+/// invocations its subgroups have (what is given here is the default device's).
 struct GroupLimits {
-    std::uint32_t invocations = 1024, shared_bytes = 32768;
+    std::uint32_t invocations = 1024, shared_bytes = 32768, subgroup = 8;
     bool operator==(const GroupLimits&) const = default;
 };
 
@@ -96,6 +99,7 @@ class Kernels {
 
 /// Kernels that belong together.
 inline const Kernels stream_kernels{Kernel::explicit_stream, Kernel::spring_stream, Kernel::twist_stream},
-    tile_kernels{Kernel::explicit_tile, Kernel::spring_tile, Kernel::twist_tile}, cyclic_kernels{Kernel::line_cyclic};
+    tile_kernels{Kernel::explicit_tile, Kernel::spring_tile, Kernel::twist_tile}, cyclic_kernels{Kernel::line_cyclic},
+    parts_kernels{Kernel::line_parts};
 
 }  // namespace drape
