@@ -45,7 +45,7 @@ ivec2 first_at;    // where that is
 int stride;        // columns from one of them to the next
 int read_line_at;  // which of the subgroup's lines that is
 
-// Of the owned particles and the springs after them:
+// These are of the owned particles and the springs after them.
 vec3 edge[part_particles];      // edges, m; in the second system their normals
 float weight[part_particles];
 float weight_after;             // that of the particle after the last

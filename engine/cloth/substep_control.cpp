@@ -22,6 +22,8 @@ constexpr double comfort = 0.6;
 constexpr double very_easy = 0.2;
 /// Where more substeps do not reduce the motion's error, fewer are used as long as they increase it by less than this.
 constexpr double unpredictable_slack = 6;
+/// The motion of a sensitive run, of which means are promised but no positions, may err so many times as much.
+constexpr double sensitive_slack = 3;
 
 }  // namespace
 
@@ -73,6 +75,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     const double lag = until_lag_ == 0 ? judgement.lag : 0;
     passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
     if (turned_back_) return accept_unpredictable(judgement);
+    if (judgement.sensitive) slack_ = std::max(slack_, sensitive_slack);
     const double worst = std::max(judgement.stretch, judgement.motion / slack_);
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
     if (worst <= 1 && lags(judgement)) {

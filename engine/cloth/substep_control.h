@@ -25,6 +25,7 @@ struct Judgement {
     double coarse_stretch = 0;  ///< that of its run with half the substeps
     bool plausible = true;      ///< the watch finds it plausible (cloth/watch.h)
     double passage = 0;         ///< ways by colliders (cloth/passage_watch.h), which are kept as far as substeps go
+    bool sensitive = false;     ///< equally exact runs part (cloth/sensitivity.h): positions have no truth
     double lag = 0;             ///< how far truncation held a particle back, which is kept as far as substeps help
 };
 

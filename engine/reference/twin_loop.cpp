@@ -128,6 +128,7 @@ double TwinLoop::motion(const Twin& fine, const Twin& coarse) {
 Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
     const Segment& segment = control_.segment();
     Judgement judgement;
+    judgement.sensitive = sensitivity_.is_sensitive();
     const auto begin = [&](std::uint32_t substeps) {
         Twin twin = state_;
         if (substeps != state_substeps_) twin.change_substep(at(substeps));

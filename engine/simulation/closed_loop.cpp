@@ -200,6 +200,7 @@ void FrameLoop::simulate_segment(std::uint32_t frame, const Asked& asked) {
     for (;;) {
         const Attempt attempt{frame, effort.attempts + 1, !kept_};
         Judgement judgement;
+        judgement.sensitive = sensitivity_.is_sensitive();
         fullest_ = {};
         if (control_->segment().probes) run_coarse(attempt, judgement, asked);
         judged = run_fine(attempt, judgement, asked);

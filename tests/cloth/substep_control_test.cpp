@@ -103,6 +103,22 @@ TEST(SubstepControl, MotionThatMoreSubstepsDoNotMendIsKeptAndSaid) {
     EXPECT_EQ(loop.judge({.stretch = 1.5, .motion = 5}), Verdict::again);
 }
 
+TEST(SubstepControl, TheMotionOfASensitiveRunMayErrThreeTimesAsMuch) {
+    SubstepControl loop = control(64);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 2.5, .coarse_stretch = 0.4, .sensitive = true}),
+              Verdict::unpredictable);
+    EXPECT_EQ(loop.segment().substeps, 64u);
+    // An attempt that errs more is done again, and the stretch error is still a promise.
+    while (!loop.begin(6, false).probes) loop.judge({.stretch = 0.1, .sensitive = true});
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 3.1, .coarse_stretch = 0.4, .sensitive = true}), Verdict::again);
+    EXPECT_EQ(loop.judge({.stretch = 1.1, .motion = 0.5, .coarse_stretch = 4, .sensitive = true}), Verdict::again);
+    // A run that is not sensitive is held to the limit itself.
+    SubstepControl exact = control(64);
+    exact.begin(6, false);
+    EXPECT_EQ(exact.judge({.stretch = 0.1, .motion = 2.5, .coarse_stretch = 0.4}), Verdict::again);
+}
+
 TEST(SubstepControl, WhatHardlyHelpsIsSettledWithFourTimesTheSubstepsAtOnce) {
     SubstepControl loop = control(8);
     loop.begin(6, false);
