@@ -65,10 +65,11 @@ double collider_moved(const Collider& collider, double far, double from, double 
 /// `sentence` says the value and the bound, in this order.
 Implausible compare(const char* criterion, double value, double bound, const char* sentence,
                     std::optional<std::uint32_t> particle = {}) {
-    // The device squares in single precision: what overflowed there is at least this.
+    // The device squares in single precision: what overflowed there is at least this. No number is beyond any bound.
     const double known = std::isinf(value) ? 1e19 : value;
-    if (!(known / bound > 1)) return {known / bound, {}, {}, value, bound, particle};  // nobody asks for its words
-    return {known / bound, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
+    const double excess = std::isnan(value) ? std::numeric_limits<double>::infinity() : known / bound;
+    if (!(excess > 1)) return {excess, {}, {}, value, bound, particle};  // nobody asks for its words
+    return {excess, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
 }
 
 Implausible worse(const Implausible& a, const Implausible& b) { return b.excess > a.excess ? b : a; }
