@@ -100,7 +100,8 @@ class FrameLoop {
     /// Returns whether every frame that was simulated was handed out, or will have been once `stop` has ended the loop.
     bool can_save() const {
         if (!pool_) return false;
-        return in_segment_ || (withheld_.empty() && (!control_ || next_frame_ >= simulated_));
+        // Frame 0 is there before any is simulated.
+        return in_segment_ || (withheld_.empty() && (!control_ || std::max(next_frame_, 1u) >= simulated_));
     }
     /// Returns what next_frame() starts from; call it only while can_save().
     SimulationState save() const;

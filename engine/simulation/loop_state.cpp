@@ -96,9 +96,10 @@ bool FrameLoop::can_be() const {
 
 void FrameLoop::restore_cuts(const SimulationState& state) {
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+        CutTopology& topology = solver_.topologies()[cloth];
+        if (model_.scene.comes_apart()) topology = CutTopology(topology.cloth());
         const auto part = state.find(cuts_part(model_.cloths[cloth]));
         if (part == state.end()) continue;
-        CutTopology& topology = solver_.topologies()[cloth];
         CutFindings findings;
         findings.fractions.resize(model_.cloths[cloth].grid.particle_count());
         if (part->second.size() != findings.fractions.size() * sizeof(glsl::vec4)) refuse(part->first);
@@ -110,6 +111,7 @@ void FrameLoop::restore_cuts(const SimulationState& state) {
 void FrameLoop::restore(const SimulationState& state) {
     const auto loop = state.find(loop_part);
     if (loop == state.end()) refuse("it has no part 'loop'");
+    withheld_.clear();  // a probe's, of the motion that is left
     if (!take_host_state(loop->second) || !can_save()) refuse("its part 'loop' is of something else");
     restore_cuts(state);
     SimulationState fields;

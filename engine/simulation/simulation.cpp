@@ -251,6 +251,11 @@ std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame();
 bool Simulation::can_save() const { return parts_->loop.can_save(); }
 
 SimulationState Simulation::save() const {
+    if (!can_save())
+        throw Error(
+            fmt::format("frame {} cannot be saved: method auto has begun a probe, whose frames are kept or done "
+                        "again together (can_save)",
+                        next_frame() - 1));
     SimulationState state = parts_->loop.save();
     state[watch_part] = written(parts_->watch);
     state[passages_part] = written(parts_->passages);
