@@ -126,6 +126,7 @@ void Ensemble::step(const EnsembleActions& actions) {
         }
     });
     for (const auto& member : members) member->judged = false;
+    parts_->runs->refresh();
 }
 
 void Ensemble::reset(std::span<const std::size_t> members) {
@@ -133,6 +134,7 @@ void Ensemble::reset(std::span<const std::size_t> members) {
     for (const std::size_t number : members) parts_->members[number]->begin_anew();
     parts_->runs->reset(members);
     parts_->runs->look();
+    parts_->runs->refresh();
 }
 
 MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::position); }
@@ -177,6 +179,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         motions[k].put_into(member.model);
     }
     parts_->runs->look();
+    parts_->runs->refresh();
 }
 
 std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,8 +32,16 @@ class MemberRuns {
     /// Hands out the arrays of what members were taken to, where that did not.
     virtual void look() {}
     virtual MemberArray array(std::size_t cloth, MemberValue value) const = 0;
+    /// Brings what arrays show that were handed out up to date, after members went on or were taken elsewhere.
+    void refresh() const {
+        for (const auto& [which, gathered] : gathered_) array(which.first, which.second);
+    }
     virtual std::size_t pass_count() const = 0;
     virtual double device_milliseconds() const { return 0; }
+
+  protected:
+    /// Arrays of a cloth's values that do not lie evenly in what the device left.
+    mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };
 
 using Members = std::vector<std::unique_ptr<Member>>;

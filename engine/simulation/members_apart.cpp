@@ -127,7 +127,6 @@ class MembersApart : public MemberRuns {
     std::vector<SimulationState> starts_;
     std::vector<Frame> frames_;
     std::vector<bool> over_;  ///< a loop gave up, and stays where it was
-    mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };
 
 }  // namespace

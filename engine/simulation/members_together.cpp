@@ -219,7 +219,6 @@ class MembersTogether : public MemberRuns {
     std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
     std::vector<FrameInputs> inputs_;                             ///< by member
     FrameInputs joined_;
-    mutable std::map<std::pair<std::size_t, MemberValue>, std::vector<float>> gathered_;
 };
 
 }  // namespace

@@ -331,6 +331,40 @@ class Ensembles(Validated):
         with self.assertRaises(drape.Error):
             together.restore([0], [{"member": b"nonsense"}])
 
+    def test_a_mask_says_which_members_go_back(self):
+        together = self.ensemble(sheet(), 3)
+        together.step()
+        together.reset(np.array([True, False, True]))
+        np.testing.assert_array_equal(together.frames, [0, 1, 0])
+
+    def test_overrides_are_of_the_scene_as_it_was_written(self):
+        changes = [{}, {"/cloths/0/fabric": "silk"}]
+        together = self.ensemble(sheet(), changes)
+        together.step()
+        alone = drape.Simulation(drape.parse(sheet(), changes[1]))
+        alone.step()
+        alone.step()
+        np.testing.assert_array_equal(together.positions()[1], alone.positions(0))
+        self.assertGreater(np.abs(together.positions()[1] - together.positions()[0]).max(), 0)
+
+    def test_members_that_go_apart_are_as_those_that_share_dispatches(self):
+        for change in ({"/solver": {"method": "auto"}}, {"/cloths/0/self_collision": True}):
+            together = self.ensemble(drape.parse(sheet(), change), 2)
+            self.assertIsNotNone(together.obstacle)
+            positions, velocities = together.positions(), together.velocities()
+            start = positions.copy()
+            frames = []
+            for _ in range(4):
+                together.step()
+                frames.append(positions[0].copy())
+            self.assertGreater(np.abs(frames[0] - start[0]).max(), 0, "the view does not follow")
+            self.assertGreater(np.abs(velocities).max(), 0)
+            together.reset()
+            np.testing.assert_array_equal(positions, start)
+            for frame in frames:
+                together.step()
+                np.testing.assert_array_equal(positions[1], frame)
+
     def test_what_cannot_be_is_refused(self):
         with self.assertRaisesRegex(drape.Error, "member 1 .* /cloths/0/grid is 8 x 7, not 9 x 7"):
             drape.Ensemble(sheet(), [{}, {"/cloths/0/grid": [8, 7]}])
@@ -350,8 +384,11 @@ class Ensembles(Validated):
         self.assertEqual(caught.exception.member, 1)
         self.assertIsInstance(caught.exception, drape.Error)
         np.testing.assert_array_equal(together.frames, [0, 0])
-        with self.assertRaisesRegex(ValueError, r"pins: expected an array \[2, 2, 3 or 6\]"):
+        with self.assertRaisesRegex(drape.ActionError, r"pins: expected an array \[2, 2, 3 or 6\]"):
             together.step(pins=np.zeros((2, 1, 3)))
+        for members, error in ((1, TypeError), ([0.5], TypeError), ([-1], IndexError), ([True], ValueError)):
+            with self.assertRaisesRegex(error, "members: "):
+                together.reset(members)
         with self.assertRaises(IndexError):
             together.save(2)
 

@@ -1,4 +1,5 @@
 // Ensembles in Python: members share dispatches, arrays are [member, row, column, 3] on the library's own memory.
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <optional>
@@ -82,8 +83,9 @@ class PyEnsemble {
         const std::size_t last = array.ndim() > 0 ? extent(array.ndim() - 1) : 0;
         if (array.ndim() != (has_key ? 3 : 2) || extent(0) != ensemble_->size() || extent(1) != shape[0] ||
             (has_key && last != 3 && last != key))
-            throw py::value_error(py::str("{}: expected an array [{}, {}{}]")
-                                      .format(name, ensemble_->size(), shape[0], has_key ? ", 3 or 6" : ""));
+            throw ActionError(fmt::format("actions: {}: expected an array [{}, {}{}]", name, ensemble_->size(),
+                                          shape[0], has_key ? ", 3 or 6" : ""),
+                              0);
         if (!has_key || last == key) return {array.data(), array.data() + array.size()};
         std::vector<double> all(ensemble_->size() * shape[0] * key);
         for (std::size_t k = 0; k < ensemble_->size() * shape[0]; ++k)
@@ -106,8 +108,30 @@ py::array member_vectors(const py::object& owner, const py::object& which,
                 {size(array.member_stride * sizeof(float)), size(array.columns) * pitch, pitch, sizeof(float)}, owner);
 }
 
+/// Returns the numbers of members: of all where `which` is None, of those where a mask is true, else it lists them.
 std::vector<std::size_t> members_of(const Ensemble& ensemble, const py::object& which) {
-    if (!which.is_none()) return py::cast<std::vector<std::size_t>>(which);
+    if (!which.is_none()) {
+        const auto list = py::array::ensure(which);
+        const bool is_list = list && list.ndim() == 1;
+        std::vector<std::size_t> numbers;
+        if (is_list && list.dtype().kind() == 'b') {
+            if (static_cast<std::size_t>(list.size()) != ensemble.size())
+                throw py::value_error(
+                    fmt::format("members: a mask of {} for {} members", list.size(), ensemble.size()));
+            const auto mask = py::cast<py::array_t<bool>>(list);
+            for (py::ssize_t k = 0; k < list.size(); ++k)
+                if (mask.at(k)) numbers.push_back(static_cast<std::size_t>(k));
+            return numbers;
+        }
+        if (!is_list || (list.size() > 0 && list.dtype().kind() != 'i' && list.dtype().kind() != 'u'))
+            throw py::type_error("members: expected a list of their numbers, or a mask with a bool for each");
+        const auto given = py::cast<py::array_t<std::int64_t>>(list);
+        for (py::ssize_t k = 0; k < list.size(); ++k) {
+            if (given.at(k) < 0) throw py::index_error(fmt::format("members: there is none of number {}", given.at(k)));
+            numbers.push_back(static_cast<std::size_t>(given.at(k)));
+        }
+        return numbers;
+    }
     std::vector<std::size_t> all(ensemble.size());
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
     return all;
@@ -158,7 +182,8 @@ void define_member_states(py::class_<PyEnsemble>& ensemble) {
             [](PyEnsemble& self, const py::object& members) {
                 self.ensemble().reset(members_of(self.ensemble(), members));
             },
-            py::arg("members") = py::none(), "Takes members (all of them: None) back to frame 0.")
+            py::arg("members") = py::none(),
+            "Takes members (their numbers, or a mask with a bool for each; None: all) back to frame 0.")
         .def(
             "save",
             [](const PyEnsemble& self, std::size_t member) {
@@ -168,10 +193,10 @@ void define_member_states(py::class_<PyEnsemble>& ensemble) {
             py::arg("member"), "What the member's next frames depend on: a dict of bytes, for restore().")
         .def(
             "restore",
-            [](PyEnsemble& self, const std::vector<std::size_t>& members, const std::vector<py::dict>& states) {
+            [](PyEnsemble& self, const py::object& members, const std::vector<py::dict>& states) {
                 std::vector<SimulationState> all;
                 for (const py::dict& state : states) all.push_back(state_of(state));
-                self.ensemble().restore(members, all);
+                self.ensemble().restore(members_of(self.ensemble(), members), all);
             },
             py::arg("members"), py::arg("states"), "Takes members to saved states, one for each; any member's.");
 }

@@ -27,7 +27,8 @@ std::vector<std::string> override_texts(const py::dict& overrides) {
 
 Scene scene_of(SceneResult result, const std::vector<std::string>& overrides, const std::string& folder = {}) {
     if (!result.scene) throw SceneFailure(std::move(result));
-    Scene scene{*result.scene, resolved_scene(result.text, overrides, folder), {}, folder};
+    Scene scene{*result.scene, resolved_scene(result.text, overrides, folder), std::move(result.text), overrides, {},
+                folder};
     for (const SceneError& warning : result.warnings) scene.warnings.push_back(warning.text());
     return scene;
 }
@@ -55,9 +56,10 @@ Scene any_scene(const py::object& source) {
 }
 
 Scene changed(const Scene& scene, const py::dict& overrides) {
-    const std::vector<std::string> texts = override_texts(overrides);
-    SceneResult result = read_scene_text(scene.json, "scene", texts, scene.folder);
-    result.text = scene.json;
+    std::vector<std::string> texts = scene.overrides;
+    for (std::string& text : override_texts(overrides)) texts.push_back(std::move(text));
+    SceneResult result = read_scene_text(scene.source, "scene", texts, scene.folder);
+    result.text = scene.source;
     return scene_of(std::move(result), texts, scene.folder);
 }
 

@@ -13,10 +13,13 @@ namespace drape::python {
 
 namespace py = pybind11;
 
-/// A scene, and its JSON with every default.
+/// A scene, its JSON with every default, and what it was read from: changes are made to that, since what is written out
+/// there has precedence over what other keys stand for, such as a fabric.
 struct Scene {
     SceneDescription description;
     std::string json;
+    std::string source;
+    std::vector<std::string> overrides;
     std::vector<std::string> warnings;
     std::string folder;  ///< in which it looks for files that it names; empty: the working directory
 };
