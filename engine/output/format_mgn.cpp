@@ -47,12 +47,17 @@ class Trajectory : public FrameWriter {
         std::vector<std::int32_t> types;
         for (const WrittenCloth& cloth : run_.cloths) {
             const auto first = static_cast<std::uint32_t>(types.size());
-            for (const std::uint32_t particle : cloth.faces) cells.push_back(first + particle);
+            std::vector<bool> in_cell(cloth.particle_count());  // particles in holes never move
+            for (const std::uint32_t particle : cloth.faces) {
+                cells.push_back(first + particle);
+                in_cell[particle] = true;
+            }
             for (std::size_t particle = 0; particle < cloth.particle_count(); ++particle) {
                 const auto [u, v] = cloth.uv(particle);
                 mesh_positions.push_back(
                     {static_cast<float>(u * cloth.size[0]), static_cast<float>(v * cloth.size[1])});
-                types.push_back(!cloth.held.empty() && cloth.held[particle] ? handle_node : normal_node);
+                const bool held = !in_cell[particle] || (!cloth.held.empty() && cloth.held[particle]);
+                types.push_back(held ? handle_node : normal_node);
             }
         }
         // A solid body has no sheet to lie in.

@@ -117,6 +117,27 @@ TEST_F(Compare, FoldersFileByFile) {
     EXPECT_EQ(over, 1u);
 }
 
+TEST_F(Compare, FoldersWithWhatIsInTheirFolders) {
+    for (const char* side : {"a", "b"}) {
+        for (const char* file : {"runs/0000/positions.npy", "runs/0001/deep/positions.npy"}) {
+            fs::create_directories((*this / side / file).parent_path());
+            write_array(*this / side / file, {1, 2, 3, 4});
+        }
+        fs::create_directories(*this / side / "jobs");
+        for (const char* file : {"jobs/0000.json", "results.csv", "runs/0000/manifest.json"})
+            write_text(*this / side / file, std::string("took another time in ") + side);
+    }
+    const Outcome same = run("a", "b");
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_THAT(same.out, HasSubstr("ok    runs/0001/deep/positions.npy: float32 (2, 2): equal\n2 compared, 0 over"));
+    write_array(*this / "b/runs/0001/deep/positions.npy", {1, 2, 3, 5});
+    write_text(*this / "b/runs/note.txt", "more");
+    const Outcome other = run("a", "b");
+    EXPECT_EQ(other.code, 7);
+    EXPECT_THAT(other.out, AllOf(HasSubstr("OVER  runs/0001/deep/positions.npy: "),
+                                 HasSubstr("OVER  runs/note.txt: only in " + (*this / "b").string())));
+}
+
 TEST_F(Compare, PositionsOfSensitiveFramesByTheirMeans) {
     // Two frames of two values each; in the second the runs differ by 1 and -0.5, so their means by 0.25.
     write_array(*this / "a/positions.npy", {1, 2, 3, 4});

@@ -292,12 +292,12 @@ TEST_F(Sweep, SomeRunsOfADataSetHaveItsDescription) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 2, "count": 9,
         "vary": {"/gravity/0": {"uniform": [-1, 1]}}})");
     ASSERT_EQ(sweep({"--dataset", "--index", "0-1"}).code, 0);
-    const auto load = [&] {
-        return Running("/usr/bin/python3",
-                       {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py", (folder / "out/dataset").string()})
+    const auto load = [&](const char* output) {
+        return Running("/usr/bin/python3", {DRAPE_SOURCE_DIR "/tools/examples/sweep/load_dataset.py",
+                                            (folder / output / "dataset").string()})
             .wait();
     };
-    const Outcome loaded = load();
+    const Outcome loaded = load("out");
     EXPECT_EQ(loaded.code, 0) << loaded.err;
     EXPECT_THAT(loaded.out, HasSubstr("2 trajectories of 9 frames"));
     const std::string meta = file("out/dataset/meta.json");
@@ -307,6 +307,14 @@ TEST_F(Sweep, SomeRunsOfADataSetHaveItsDescription) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/time/frames": {"grid": [3, 4]}}})");
     ASSERT_EQ(sweep({"--dataset", "--index", "1"}, "other").code, 0);
     EXPECT_EQ(read_json(folder / "other/dataset/meta.json", {})["trajectory_length"], Json::Value(-1));
+    // Two lengths of a frame, and nodes in a hole.
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "set": {"/cloths/0/holes": [[[1, 1], [4, 4]]]},
+        "vary": {"/time/fps": {"grid": [30, 60]}}})");
+    ASSERT_EQ(sweep({"--dataset"}, "holed").code, 0);
+    EXPECT_EQ(read_json(folder / "holed/dataset/meta.json", {})["dt"].asDouble(), -1);
+    const Outcome holed = load("holed");
+    EXPECT_EQ(holed.code, 0) << holed.err;
+    EXPECT_THAT(holed.out, HasSubstr("2 trajectories of 9 frames, not the same s apart"));
 }
 
 TEST_F(Sweep, WhatAKilledOneLeftIsNothing) {

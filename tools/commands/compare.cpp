@@ -61,7 +61,8 @@ void add_compare(Program& program) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App& command = program.add("compare", "Two runs' arrays, pictures or folders, or two profiles", R"text(
 Arrays (.npy, .npz): largest and RMS difference. Pictures (.png): PSNR and largest difference. Folders: file by file,
-other files by their bytes, the manifests left out. What is given no limit must be equal. Exit code 7 when anything is
+those in folders in them too, other files by their bytes; what tells times is left out (manifest.json, results.csv,
+jobs/). What is given no limit must be equal. Exit code 7 when anything is
 over its limit, or only one of them has it. Where the manifest beside arrays calls frames `sensitive` (equally exact
 runs part there), --max and --rms judge the frames before, and of the others only means are told.
 

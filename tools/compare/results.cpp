@@ -178,12 +178,20 @@ std::vector<Row> compare_array_files(const fs::path& a, const fs::path& b, const
     return rows;
 }
 
+/// Returns whether a file tells how long something took, which is never the same: a manifest, and what a sweep notes
+/// of its runs.
+bool tells_times(const fs::path& name) {
+    return name.filename() == manifest_file_name || name.filename() == "results.csv" || *name.begin() == "jobs";
+}
+
+/// Returns the paths, from the folder on, of the files in it and in the folders in it.
 std::set<std::string> files_in(const fs::path& folder) {
     std::set<std::string> names;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (entry.is_regular_file() && entry.path().filename() != manifest_file_name)
-            names.insert(entry.path().filename().string());
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        const fs::path name = at->path().lexically_relative(folder);
+        if (at->is_regular_file() && !tells_times(name)) names.insert(name.generic_string());
+    }
     if (error) throw OutputError(fmt::format("cannot read '{}': {}", folder.string(), error.message()));
     return names;
 }
@@ -206,7 +214,11 @@ std::vector<Row> compare_folders(const fs::path& a, const fs::path& b, const Lim
         if (!after.contains(name)) {
             rows.push_back(only_in(name, a));
         } else if (is_result_file(name)) {
-            std::ranges::move(compare_files(a / name, b / name, limits), std::back_inserter(rows));
+            const std::string inside = fs::path(name).parent_path().generic_string();
+            for (Row& row : compare_files(a / name, b / name, limits)) {
+                if (!inside.empty()) row.name = inside + "/" + row.name;
+                rows.push_back(std::move(row));
+            }
         } else {
             const bool equal = read_file(a / name) == read_file(b / name);
             rows.push_back({name, equal ? "equal bytes" : "other bytes", !equal, {}, {}, {}});

@@ -88,7 +88,7 @@ void write_meta(const fs::path& folder, const SweepSpec& spec) {
     Json::Value meta(Json::objectValue);
     meta["simulator"] = fmt::format("drape {}", program_version());
     meta["trajectory_length"] = Json::Int64{shape.frames};
-    if (shape.dt > 0) meta["dt"] = shape.dt;
+    meta["dt"] = shape.dt;
     Json::Value& features = meta["features"];
     features["cells"] = feature("static", {1, shape.cells, 3}, "int32");
     features["mesh_pos"] = feature("static", {1, shape.nodes, 2}, "float32");
