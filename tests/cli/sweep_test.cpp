@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <sstream>
+#include <thread>
 
 #include "output/json_file.h"
 #include "output/json_text.h"
@@ -83,7 +84,7 @@ TEST_F(Sweep, RunsThatGoOnTogetherHaveTheBytesOfEachAlone) {
         "vary": {"/time/frames": {"grid": [5, 9]}, "/cloths/0/velocity/1": {"grid": [0, 1e37]},
                  "/cloths/0/areal_density": {"uniform": [0.1, 0.4]}, "/cloths/0/stiffness/stretch": {"uniform": [300, 900]}}})");
     const Outcome together = sweep({"--index", "0-7"}, "together");
-    EXPECT_EQ(together.code, 5) << together.err;
+    EXPECT_EQ(together.code, 9) << together.err;
     EXPECT_THAT(together.err, HasSubstr("run 2: the simulation diverged"));
     for (int index = 0; index < 8; ++index)
         EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, index % 4 < 2 ? 0 : 5);
@@ -117,6 +118,74 @@ TEST_F(Sweep, AProcessThatIsKilledCostsNoRun) {
     EXPECT_THAT(ended.err, HasSubstr("3 done, 0 failed, 0 missing"));
     EXPECT_EQ(sweep({"--index", "1"}, "alone").code, 0);
     EXPECT_EQ(file("out/runs/0001/positions.npz"), file("alone/runs/0001/positions.npz"));
+}
+
+TEST_F(Sweep, ThatIsKilledTakesItsProcessesAlong) {
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 2, "set": {"/time/frames": 20000},
+        "vary": {"/cloths/0/areal_density": {"uniform": [0.1, 0.4]}}})");
+    Running all(DRAPE_PROGRAM, {"sweep", "spec.json", "-o", "out", "--jobs", "1"}, {.folder = folder.path()});
+    ASSERT_TRUE(all.wait_until([&] { return std::filesystem::exists(folder / "out/runs/0001"); }));
+    const std::string child = read_text(fmt::format("/proc/{0}/task/{0}/children", all.id()));
+    const int process = std::atoi(child.c_str());
+    ASSERT_GT(process, 0);
+    ASSERT_EQ(kill(all.id(), SIGKILL), 0);
+    all.wait();
+    const auto is_there = [&] { return kill(process, 0) == 0; };
+    for (int wait = 0; wait < 100 && is_there(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(is_there()) << "it would be writing what --resume wants to write";
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/jobs/0000-0001.log"));
+    write_text(folder / "out/jobs/0000.json", R"({"exit_code": 0, "message": "", "seconds": 1, "values": {}})");
+    write_text(folder / "out/jobs/0001.json", R"({"exit_code": 0, "message": "", "seconds": 1, "values": {}})");
+    EXPECT_EQ(sweep({"--resume", "-q"}).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/jobs/0000-0001.log"));
+}
+
+TEST_F(Sweep, RunsOfAnIndexAreRunsAndEachCountsOnce) {
+    for (const char* index : {"", "3-1", "6", "1,", "x"}) {
+        const Outcome outcome = sweep({"--index", index});
+        EXPECT_EQ(outcome.code, 2) << index;
+        EXPECT_THAT(outcome.err, HasSubstr(fmt::format("expected runs from 0 to 5, as in 7, 0-99 or 1,5,9-12, got "
+                                                       "'{}'",
+                                                       index)));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    EXPECT_EQ(sweep({"--index", "1,0-1,1", "-q"}).code, 0);
+    EXPECT_EQ(sweep({"--index", "3-5"}).code, 9) << "runs have failed";
+    EXPECT_EQ(sweep({"--index", "5"}).code, 3) << "a run's own code";
+}
+
+TEST_F(Sweep, ABadFirstRunIsAFailedRun) {
+    write_text(
+        folder / "spec.json",
+        R"({"scene": "scene.json", "set": {"/time/frames": 3}, "vary": {"/cloths/0/damping": {"grid": [-1, 1]}}})");
+    EXPECT_EQ(sweep({"--index", "1"}, "alone").code, 0);
+    EXPECT_EQ(sweep({"-q"}).code, 9);
+    EXPECT_THAT(results()[1], testing::StartsWith("0,scene,3,"));
+    EXPECT_THAT(results()[2], testing::StartsWith("1,done,0,"));
+    write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/cloths/0/damping": {"grid": [-1, -2]}}})");
+    EXPECT_EQ(sweep({"-q"}, "none").code, 3) << "no run is good";
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_F(Sweep, RunsOfSeveralShapesHaveFilesOfTheirMessages) {
+    write_text(folder / "spec.json",
+               R"({"scene": "scene.json", "set": {"/time/frames": 3, "/cloths/0/velocity": [1e30, 0, 0]},
+        "vary": {"/cloths/0/damping": {"grid": [0, 1]}, "/cloths/0/grid": {"grid": [[8, 6], [7, 6]]}}})");
+    EXPECT_EQ(sweep({"--jobs", "1", "-q"}).code, 9);
+    for (const char* log : {"0000.log", "0001.log", "0002.log", "0003.log"})
+        EXPECT_THAT(file(std::string("out/jobs/") + log), HasSubstr("diverged")) << log;
+}
+
+TEST_F(Sweep, RunsThatAreDoneAreNoDataSet) {
+    write_text(
+        folder / "spec.json",
+        R"({"scene": "scene.json", "set": {"/time/frames": 3}, "vary": {"/cloths/0/damping": {"grid": [0, 1]}}})");
+    EXPECT_EQ(sweep({"-q"}).code, 0);
+    for (const char* also : {"--resume", "--collect"}) {
+        const Outcome outcome = sweep({"--dataset", also});
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_THAT(outcome.err, HasSubstr("run 0 of 'out' was made without it and has no trajectory"));
+    }
 }
 
 TEST_F(Sweep, RecordsHaveValuesOfTheirTypesAndTheTablePlainWords) {

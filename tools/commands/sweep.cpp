@@ -32,12 +32,12 @@ struct SweepOptions {
     }
     std::vector<std::string> formats{"npz"};
     bool deflates = false;
-    std::string indices;
+    std::optional<std::string> indices;
     std::uint32_t jobs = 0;
     bool dataset = false, resume = false, collect = false, list = false, count = false, quiet = false;
 };
 
-/// Parses the runs of a job: "7", "0-99", "1,5,9-12".
+/// Parses the runs of a job: "7", "0-99", "1,5,9-12". Each counts once.
 std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t count) {
     std::vector<std::uint32_t> indices;
     const auto wrong = [&] {
@@ -57,7 +57,9 @@ std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t 
         const bool is_range = at != end && *at == '-';
         if (is_range) ++at;
         const std::uint32_t last = is_range ? number() : first;
-        for (std::uint32_t index = first; index <= last; ++index) indices.push_back(index);
+        if (last < first) throw wrong();
+        for (std::uint32_t index = first; index <= last; ++index)
+            if (std::ranges::find(indices, index) == indices.end()) indices.push_back(index);
         if (at == end) return indices;
         if (*at++ != ',') throw wrong();
     }
@@ -85,12 +87,11 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
 class RunsHere {
   public:
     RunsHere(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder)
-        : options_(options), spec_(spec), folder_(folder) {}
+        : options_(options), spec_(spec), folder_(folder), asked_(parse_indices(*options.indices, spec.count)) {}
 
     /// Makes those of a list that go on together. Returns false where some were stopped.
     bool make(const std::vector<sweep::GroupedRun>& group) {
         begun_ = std::chrono::steady_clock::now();
-        together_ = group.size() > 1;
         if (group.size() == 1) {
             end(run_alone(group.front()));
         } else {
@@ -101,13 +102,14 @@ class RunsHere {
             throw OutputError(fmt::format("run {}: {}", unwritten_->index, failure_of(unwritten_->error).text));
         return stopped_.empty();
     }
-    ExitCode worst() const { return worst_; }
+    /// Returns the exit code of the run that was asked for, or of several: whether one has failed.
+    ExitCode code() const { return worst_ != ExitCode::ok && several() ? ExitCode::sweep : worst_; }
     std::string stopped() const { return stopped_; }
 
     /// Returns the runs of --index that have no record, as lists.
     std::vector<std::vector<sweep::GroupedRun>> lists() {
         std::vector<sweep::GroupedRun> runs;
-        for (const std::uint32_t index : parse_indices(options_.indices, spec_.count)) {
+        for (const std::uint32_t index : asked_) {
             if (const auto there = options_.resume ? folder_.record(index) : std::nullopt)
                 note(static_cast<ExitCode>(there->exit_code));
             else
@@ -115,14 +117,15 @@ class RunsHere {
         }
         std::vector<std::vector<sweep::GroupedRun>> groups = sweep::groups_of(std::move(runs));
         for (std::vector<sweep::GroupedRun>& group : groups)
-            if (group.size() > 1)
-                for (sweep::GroupedRun& run : group)
+            for (sweep::GroupedRun& run : group)
+                if (several())
                     run.request.message = [this, index = run.index](const std::string& text) { tell(index, text); };
         return groups;
     }
 
   private:
-    /// Messages of runs that go on together are mixed; each run's file has its own.
+    bool several() const { return asked_.size() > 1; }
+    /// Messages of several runs are mixed; each run's file has its own.
     void tell(std::uint32_t index, const std::string& text) {
         const std::scoped_lock lock(mutex_);
         logs_[index] += printable(text) + "\n";
@@ -162,7 +165,7 @@ class RunsHere {
         }
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
         try {
-            if (together_) write_log(run.index, failed);
+            if (several()) write_log(run.index, failed);
             folder_.write(record, options_.dataset);
         } catch (const OutputError&) {
             return leave_unwritten({run.index, std::current_exception()});
@@ -192,8 +195,8 @@ class RunsHere {
     const SweepOptions& options_;
     const sweep::SweepSpec& spec_;
     const sweep::SweepFolder& folder_;
+    std::vector<std::uint32_t> asked_;
     std::chrono::steady_clock::time_point begun_;
-    bool together_ = false;  ///< the runs that are made have files for their messages
     std::mutex mutex_;
     std::map<std::uint32_t, std::string> logs_;
     ExitCode worst_ = ExitCode::ok;
@@ -203,11 +206,12 @@ class RunsHere {
 
 /// Makes the runs of --index, those of one shape together.
 ExitCode run_indices(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+    sweep::end_with_sweep();
     RunsHere runs(options, spec, folder);
     for (const std::vector<sweep::GroupedRun>& group : runs.lists())
         if (!runs.make(group)) return report_stop(runs.stopped());
     if (options.dataset) folder.describe_dataset();
-    return runs.worst();
+    return runs.code();
 }
 
 std::vector<std::string> command_of(const SweepOptions& options, const std::vector<std::uint32_t>& indices,
@@ -245,13 +249,15 @@ std::vector<std::vector<std::uint32_t>> shares_of(const std::vector<std::uint32_
     return shares;
 }
 
-ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, const sweep::SweepFolder& folder,
+                 std::uint32_t good) {
+    folder.remove_logs_of_processes();
     sweep::LocalRuns runs;
     runs.processes = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::uint32_t> missing;
     for (std::uint32_t index = 0; index < spec.count; ++index)
         if (!folder.record(index)) missing.push_back(index);
-    runs.groups = shares_of(missing, sweep::can_be_grouped(request_of(options, spec, folder, 0))
+    runs.groups = shares_of(missing, sweep::can_be_grouped(request_of(options, spec, folder, good))
                                          ? group_size(options, missing.size(), runs.processes)
                                          : 1);
     // Where every core has a run, a driver's own threads would only be in the way.
@@ -277,13 +283,33 @@ std::string list(const sweep::SweepSpec& spec) {
     return text;
 }
 
-/// A scene that cannot be run at all is told before the first run.
-void check_scene(const sweep::SweepSpec& spec, bool dataset) {
-    SceneResult result = read_scene(spec.scene, spec.overrides_of(0));
-    if (!result.scene) throw SceneFailure(std::move(result));
-    if (dataset && result.scene->comes_apart())
-        throw UsageError(fmt::format("--dataset: the cells of a trajectory cannot change, but the scene has {}",
-                                     result.scene->tears() ? "cloth that tears" : "cutters"));
+/// Returns the first run whose scene is good, among some of the first. A scene of which none is good is told before the
+/// first run.
+std::uint32_t check_scene(const sweep::SweepSpec& spec, bool dataset) {
+    constexpr std::uint32_t most_looked_at = 16;
+    std::optional<SceneResult> bad;
+    for (std::uint32_t index = 0; index < std::min(spec.count, most_looked_at); ++index) {
+        SceneResult result = read_scene(spec.scene, spec.overrides_of(index));
+        if (!result.scene) {
+            if (!bad) bad = std::move(result);
+            continue;
+        }
+        if (dataset && result.scene->comes_apart())
+            throw UsageError(fmt::format("--dataset: the cells of a trajectory cannot change, but the scene has {}",
+                                         result.scene->tears() ? "cloth that tears" : "cutters"));
+        return index;
+    }
+    throw SceneFailure(std::move(*bad));
+}
+
+/// A data set cannot be made of runs that are done without their trajectories.
+void check_trajectories(const sweep::SweepSpec& spec, const sweep::SweepFolder& folder) {
+    for (std::uint32_t index = 0; index < spec.count; ++index)
+        if (const auto there = folder.record(index); there && there->done() && !folder.has_trajectory(index))
+            throw UsageError(
+                fmt::format("--dataset: run {} of '{}' was made without it and has no trajectory: make "
+                            "the data set in another folder",
+                            index, folder.path().string()));
 }
 
 ExitCode run(const SweepOptions& options) {
@@ -293,12 +319,14 @@ ExitCode run(const SweepOptions& options) {
         return ExitCode::ok;
     }
     if (options.output.empty()) throw UsageError("sweep: --output is required");
-    check_scene(spec, options.dataset);
-    const bool fresh = options.indices.empty() && !options.resume && !options.collect;
+    if (options.indices) parse_indices(*options.indices, spec.count);  // it is wrong before anything is made
+    const std::uint32_t good = check_scene(spec, options.dataset);
+    const bool fresh = !options.indices && !options.resume && !options.collect;
     const sweep::SweepFolder folder(options.output, spec, fresh);
-    catch_signals(options.indices.empty());
+    if (options.dataset && !options.indices) check_trajectories(spec, folder);
+    catch_signals(!options.indices);
     if (options.collect) return conclude(options, folder);
-    return options.indices.empty() ? run_all(options, spec, folder) : run_indices(options, spec, folder);
+    return options.indices ? run_indices(options, spec, folder) : run_all(options, spec, folder, good);
 }
 
 constexpr const char* details = R"text(
@@ -320,8 +348,8 @@ fastest; without a count every combination runs once.
 Runs of one shape whose method is named share a process and its dispatches.
 
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
-results.csv, a line per run, failed ones too: exit code 9 when there is one; no
-text in it is a control character or, to a spreadsheet, a formula. A
+results.csv, a line per run, failed ones too: exit code 9 when there is one
+(a single run of --index ends with its own); no text in it is a control character or, to a spreadsheet, a formula. A
 file that a run cannot read or write ends the sweep with exit code 1; that run
 has no record, and --resume runs it.
 
@@ -343,7 +371,11 @@ void add_sweep(Program& program) {
                                     [=] { return run(*options); });
     add_required_file(command, "SPEC", "What changes from run to run, as below", options->spec);
     add_option(command, "-o,--output", "DIR", "Folder for all runs, made when missing", options->output);
-    add_option(command, "--index", "I,...", "Only these runs, here: 7, 0-99 or 1,5,9-12", options->indices);
+    add_option(command, "--index", "I,...", "Only these runs, here: 7, 0-99 or 1,5,9-12",
+               [options](const std::string& text) {
+                   options->indices = text;
+                   return std::string();
+               });
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
     add_format_option(command, "What each run writes; default: npz", options->formats);
     add_compress_option(command, options->deflates);

@@ -38,7 +38,7 @@ bool can_be_grouped(const RunRequest& request) { return !request.draws() && gain
 
 std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs) {
     std::vector<std::vector<GroupedRun>> groups;
-    std::optional<SceneDescription> shape;  // of the last group; nothing: its run goes on alone
+    std::vector<std::optional<SceneDescription>> shapes;  // by group; nothing: its run goes on alone
     for (GroupedRun& run : runs) {
         std::optional<SceneDescription> scene;
         try {
@@ -46,12 +46,15 @@ std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs) {
             if (run.request.draws() || !gains(*scene)) scene.reset();
         } catch (const Error&) {  // the run tells of it
         }
-        const bool joins = shape && scene && groups.back().size() < most_grouped && !shape_difference(*shape, *scene);
-        if (!joins) {
+        std::size_t k = 0;
+        while (k < groups.size() &&
+               !(scene && shapes[k] && groups[k].size() < most_grouped && !shape_difference(*shapes[k], *scene)))
+            ++k;
+        if (k == groups.size()) {
             groups.emplace_back();
-            shape = std::move(scene);
+            shapes.push_back(std::move(scene));
         }
-        groups.back().push_back(std::move(run));
+        groups[k].push_back(std::move(run));
     }
     return groups;
 }

@@ -22,7 +22,7 @@ inline constexpr std::size_t most_grouped = 256;
 /// meets itself nor is cut nor fills a device alone, and no file has pictures.
 bool can_be_grouped(const RunRequest& request);
 
-/// Returns the runs, in order, in lists of those that go on together. One that goes on alone is in a list of its own.
+/// Returns the runs in lists of those that go on together, in order. One that goes on alone is in a list of its own.
 std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs);
 
 /// The end of a run: complete, stopped, or failed.

@@ -3,12 +3,14 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -21,6 +23,9 @@
 namespace drape::sweep {
 
 namespace {
+
+/// Tells the processes that are started which one started them.
+constexpr const char* sweep_variable = "DRAPE_SWEEP_PROCESS";
 
 /// Starts a process, whose messages go to the run's log.
 pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log) {
@@ -66,6 +71,7 @@ class Pool {
         std::size_t count = 0;
         for (const Group& group : waiting) count += group.size();
         Progress progress(count, options);
+        setenv(sweep_variable, std::to_string(getpid()).c_str(), 1);
         bool stopped = false;
         while (!waiting.empty() || !running_.empty()) {
             stopped = stopped || !unwritten_.empty() || runs_.stop();
@@ -147,6 +153,13 @@ class Pool {
 };
 
 }  // namespace
+
+void end_with_sweep() {
+    const char* const sweep = std::getenv(sweep_variable);
+    if (!sweep) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (std::to_string(getppid()) != sweep) raise(SIGKILL);  // it was killed before
+}
 
 bool run_locally(const LocalRuns& runs, const SweepFolder& folder) { return Pool(runs, folder).run(); }
 

@@ -23,4 +23,7 @@ struct LocalRuns {
 /// Returns whether all runs came to the end; false: stopped, and the runs that were going have no record.
 bool run_locally(const LocalRuns& runs, const SweepFolder& folder);
 
+/// Has the system kill this process with the sweep that started it, if one did: --resume would meet it at its run.
+void end_with_sweep();
+
 }  // namespace drape::sweep

@@ -145,6 +145,15 @@ fs::path SweepFolder::trajectory(std::uint32_t index) const {
     return path_ / "dataset" / fmt::format("trajectory_{}.npz", number(index));
 }
 
+bool SweepFolder::has_trajectory(std::uint32_t index) const { return is_there(trajectory(index)); }
+
+void SweepFolder::remove_logs_of_processes() const {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(path_ / "jobs", error))
+        if (entry.path().extension() == ".log" && entry.path().stem().string().find('-') != std::string::npos)
+            fs::remove(entry.path(), error);
+}
+
 std::optional<JobRecord> SweepFolder::record(std::uint32_t index) const {
     const fs::path file = path_ / "jobs" / (number(index) + ".json");
     if (!is_there(file)) return std::nullopt;

@@ -55,7 +55,11 @@ class SweepFolder {
     }
     const std::filesystem::path& path() const { return path_; }
 
+    /// Removes the files of messages that processes which make several runs left when they were killed.
+    void remove_logs_of_processes() const;
+
     std::optional<JobRecord> record(std::uint32_t index) const;
+    bool has_trajectory(std::uint32_t index) const;
     /// Adds the numbers of the run's manifest, and with `dataset` gives the data set its trajectory.
     void write(JobRecord record, bool dataset) const;
 
