@@ -65,7 +65,7 @@ double collider_moved(const Collider& collider, double far, double from, double 
 /// `sentence` says the value and the bound, in this order.
 Implausible compare(const char* criterion, double value, double bound, const char* sentence,
                     std::optional<std::uint32_t> particle = {}) {
-    // The device squares in single precision: what overflowed there is at least this. No number is beyond any bound.
+    // The device squares in single precision: what overflowed there is at least this. A NaN is beyond any bound.
     const double known = std::isinf(value) ? 1e19 : value;
     const double excess = std::isnan(value) ? std::numeric_limits<double>::infinity() : known / bound;
     if (!(excess > 1)) return {excess, {}, {}, value, bound, particle};  // nobody asks for its words

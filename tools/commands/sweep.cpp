@@ -40,6 +40,7 @@ struct SweepOptions {
 /// Parses the runs of a job: "7", "0-99", "1,5,9-12". Each counts once.
 std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t count) {
     std::vector<std::uint32_t> indices;
+    std::vector<bool> taken(count);
     const auto wrong = [&] {
         return UsageError(
             fmt::format("--index: expected runs from 0 to {}, as in 7, 0-99 or 1,5,9-12, got '{}'", count - 1, text));
@@ -58,8 +59,10 @@ std::vector<std::uint32_t> parse_indices(const std::string& text, std::uint32_t 
         if (is_range) ++at;
         const std::uint32_t last = is_range ? number() : first;
         if (last < first) throw wrong();
-        for (std::uint32_t index = first; index <= last; ++index)
-            if (std::ranges::find(indices, index) == indices.end()) indices.push_back(index);
+        for (std::uint32_t index = first; index <= last; ++index) {
+            if (!taken[index]) indices.push_back(index);
+            taken[index] = true;
+        }
         if (at == end) return indices;
         if (*at++ != ',') throw wrong();
     }
@@ -349,9 +352,10 @@ Runs of one shape whose method is named share a process and its dispatches.
 
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
 results.csv, a line per run, failed ones too: exit code 9 when there is one
-(a single run of --index ends with its own); no text in it is a control character or, to a spreadsheet, a formula. A
-file that a run cannot read or write ends the sweep with exit code 1; that run
-has no record, and --resume runs it.
+(a single run of --index ends with its own); no text in it is a control
+character or, to a spreadsheet, a formula. A file that a run cannot read or
+write ends the sweep with exit code 1; that run has no record, and --resume runs
+it.
 
 Examples:
   drape sweep spec.json -o out/sweep              all cores

@@ -46,9 +46,9 @@ std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs) {
             if (run.request.draws() || !gains(*scene)) scene.reset();
         } catch (const Error&) {  // the run tells of it
         }
-        std::size_t k = 0;
+        std::size_t k = scene ? 0 : groups.size();
         while (k < groups.size() &&
-               !(scene && shapes[k] && groups[k].size() < most_grouped && !shape_difference(*shapes[k], *scene)))
+               (!shapes[k] || groups[k].size() == most_grouped || shape_difference(*shapes[k], *scene)))
             ++k;
         if (k == groups.size()) {
             groups.emplace_back();
