@@ -379,8 +379,9 @@ TEST_F(Sweep, SomeRunsOfADataSetHaveItsDescription) {
     // Two lengths of a frame, and nodes in a hole.
     write_text(folder / "spec.json", R"({"scene": "scene.json", "set": {"/cloths/0/holes": [[[1, 1], [4, 4]]]},
         "vary": {"/time/fps": {"grid": [30, 60]}}})");
-    ASSERT_EQ(sweep({"--dataset"}, "holed").code, 0);
+    ASSERT_EQ(sweep({"--dataset", "--export", "npz"}, "holed").code, 0);
     EXPECT_EQ(read_json(folder / "holed/dataset/meta.json", {})["dt"].asDouble(), -1);
+    EXPECT_TRUE(std::filesystem::exists(folder / "holed/runs/0001/positions.npz"));
     const Outcome holed = load("holed");
     EXPECT_EQ(holed.code, 0) << holed.err;
     EXPECT_THAT(holed.out, HasSubstr("2 trajectories of 9 frames, not the same s apart"));

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
@@ -30,7 +31,7 @@ struct SweepOptions {
     std::string device(std::size_t process = 0) const {
         return devices.empty() ? std::string() : devices[process % devices.size()];
     }
-    std::vector<std::string> formats{"npz"};
+    std::vector<std::string> formats;  ///< none: the data set's alone, or npz
     bool deflates = false;
     std::optional<std::string> indices;
     std::uint32_t jobs = 0;
@@ -77,7 +78,10 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     request.output = folder.run_folder(index).string();
     request.existing = ExistingFiles::overwrite;
     request.formats = options.formats;
-    if (options.dataset) request.formats = {"mgn"};
+    constexpr const char* trajectory = "mgn";
+    if (options.dataset && std::ranges::find(request.formats, trajectory) == request.formats.end())
+        request.formats.emplace_back(trajectory);
+    if (request.formats.empty()) request.formats = {"npz"};
     request.deflates = options.deflates;
     request.quiet = true;
     request.message = print_message;
@@ -224,7 +228,8 @@ std::vector<std::string> command_of(const SweepOptions& options, const std::vect
     if (!options.devices.empty()) command.insert(command.end(), {"--device", options.device(process)});
     if (options.dataset) command.emplace_back("--dataset");
     if (options.deflates) command.emplace_back("--compress");
-    command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
+    if (!options.formats.empty())
+        command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
     return command;
 }
 
@@ -381,10 +386,11 @@ void add_sweep(Program& program) {
                    return std::string();
                });
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
-    add_format_option(command, "What each run writes; default: npz", options->formats);
+    add_format_option(command, "What each run writes; default: npz, with --dataset nothing more", options->formats);
     add_compress_option(command, options->deflates);
     add_flag(command, "--dataset",
-             "The layout of MeshGraphNets' flag_simple instead: dataset/meta.json and a trajectory per run",
+             "The layout of MeshGraphNets' flag_simple, beside what --export says: dataset/meta.json and a trajectory "
+             "per run",
              options->dataset);
     add_flag(command, "--resume", "Go on with a sweep: runs with a record are kept, failed ones too", options->resume);
     add_flag(command, "--collect", "Run nothing: results.csv of the records, with --dataset meta.json too",
