@@ -20,8 +20,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 /// Six runs of the small scene, the third of which has no mass.
 constexpr const char* six_runs = R"({
