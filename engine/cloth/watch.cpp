@@ -65,11 +65,10 @@ double collider_moved(const Collider& collider, double far, double from, double 
 /// `sentence` says the value and the bound, in this order.
 Implausible compare(const char* criterion, double value, double bound, const char* sentence,
                     std::optional<std::uint32_t> particle = {}) {
-    // The device squares in single precision: what overflowed there is at least this. A NaN is beyond any bound.
+    // The device squares in single precision: what overflowed there is at least this.
     const double known = std::isinf(value) ? 1e19 : value;
-    const double excess = std::isnan(value) ? std::numeric_limits<double>::infinity() : known / bound;
-    if (!(excess > 1)) return {excess, {}, {}, value, bound, particle};  // nobody asks for its words
-    return {excess, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
+    if (!(known / bound > 1)) return {known / bound, {}, {}, value, bound, particle};  // nobody asks for its words
+    return {known / bound, fmt::format(fmt::runtime(sentence), value, bound), criterion, value, bound, particle};
 }
 
 Implausible worse(const Implausible& a, const Implausible& b) { return b.excess > a.excess ? b : a; }
@@ -408,10 +407,12 @@ Implausible Watch::worst_stretch(std::uint32_t frame, std::size_t index, const C
     const Start& start = starts_[index];
     const bool settles = frame <= settling_time * model_.scene.time.fps;
     const double asked = std::max(model_.asked_tolerance, settles ? start.strain : start.held_strain);
+    // Particles may be so far apart that a spring's length overflows and its error is a NaN.
+    const auto known = [](double error) { return std::isnan(error) ? std::numeric_limits<double>::infinity() : error; };
     Implausible result = worse(
-        compare("stretch error, RMS", statistics.stretch_error_rms, std::max(implausible_rms, asked),
+        compare("stretch error, RMS", known(statistics.stretch_error_rms), std::max(implausible_rms, asked),
                 "begins the worst spring of a stretch error of {:.3g} RMS (bound {:.3g})", statistics.most_stretched),
-        compare("stretch error of a spring", statistics.stretch_error_max, std::max(implausible_worst, asked),
+        compare("stretch error of a spring", known(statistics.stretch_error_max), std::max(implausible_worst, asked),
                 "begins a spring whose stretch error is {:.3g} of its length (bound {:.3g})",
                 statistics.most_stretched));
     if (frame == 0 || result.excess > 1) return result;
