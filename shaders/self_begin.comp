@@ -49,7 +49,8 @@ void begin(bool edges, int entry) {
     add_weight(pair.y, self_weight(gap.weights.y));
     add_weight(pair.z, self_weight(gap.weights.z));
     add_weight(pair.w, self_weight(gap.weights.w));
-    if (begun.x != 0.0f || begun.y != 0.0f || begun.z != 0.0f) add_impulse(0, edges, pair, gap.weights, begun);
+    if (begun.x != 0.0f || begun.y != 0.0f || begun.z != 0.0f)
+        add_impulse(0, edges, pair, gap.weights, begun, cloth_at(self_texel(pair.x)).largest);
 }
 
 void main() {

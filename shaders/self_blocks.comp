@@ -20,8 +20,16 @@ int block_owner(ivec2 block) { return owner_of(place_of(2 * block)); }
 
 bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
     int other = block_owner(block);
-    if (other < 0 || meetings[owner * push.cloth_count + other] == self_meets_not) return false;
+    if (other < 0 || meetings[owner % cloths_each() * cloths_each() + other % cloths_each()] == self_meets_not) return false;
     return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]));
+}
+
+/// Returns whether a node of the tree has cells of the member whose rectangle begins at `corner`. Members do not meet,
+/// and are in each other's way, as nothing keeps them apart in space.
+bool is_of_member(ivec2 node, int level, ivec2 corner) {
+    if (member_count == 1) return true;
+    ivec2 end = corner + push.member_size, from = node << level, to = (node + 1) << level;
+    return all(lessThan(from, end)) && all(greaterThan(to, corner));
 }
 
 void main() {
@@ -32,6 +40,7 @@ void main() {
     int owner = block_owner(own);
     bool searches = gl_GlobalInvocationID.x <= uint(last) && owner >= 0;
     precise float most = (cloth_at(2 * own).thickness + push.thickness) * 0.5f;
+    ivec2 corner = 2 * own / push.member_size * push.member_size;
     int level = searches ? push.top : push.top + 1;
     int first = 0, visits = 0;  // first: index of the level's first box
     for (int below = 0; below < level && below < push.top; ++below) first += self_tree_count(push.grid, below);
@@ -41,7 +50,7 @@ void main() {
         ivec2 size = self_tree_size(push.grid, level);
         int place = first + node.y * size.x + node.x;
         bool open = entered && ((node.y + 1) << (level - 1)) > own.y && (level > 1 || place > begin + index) &&
-                    self_boxes_meet(box, box_at(place), push, most);
+                    is_of_member(node, level, corner) && self_boxes_meet(box, box_at(place), push, most);
         ++visits;
         if (visits > self_visit_limit) {
             atomicAdd(record[0].block_count, uint(push.cell_capacity));

@@ -25,12 +25,18 @@ layout(set = 0, binding = 11, std430) writeonly buffer Crossings { SelfCrossings
 void forget_crossings(int k) { crossings[k] = SelfCrossings(0, 0); }
 #endif
 
-vec3 carried, travel;  // those of record[0], read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
+vec3 first_travel;  // the first record's, read as early
+vec3 travel_at(int place) {
+    vec3 travel = first_travel;
+    if (member_count > 1) travel = record[member_at(place)].travel.xyz;
+    return travel;
+}
 bool searches = false;
 
 SelfBox particle_box(ivec2 texel) {
     return self_point_box(imageLoad(positions, texel).xyz,
-                          self_relative_motion(imageLoad(displacements, texel).xyz, carried));
+                          self_relative_motion(imageLoad(displacements, texel).xyz, carried_at(texel)));
 }
 
 SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
@@ -46,7 +52,7 @@ SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
 /// Returns whether a cell has left the box with which it was looked for, or may have by rounding. The travel that all
 /// cells have made since then brings none nearer to another, so it does not count. There is no && or ||, which would
 /// branch.
-bool has_left(SelfBox box, SelfBox was) {
+bool has_left(SelfBox box, SelfBox was, vec3 travel) {
     vec3 least = vec3(push.least);
     precise vec3 above = (box.lower.xyz - travel) - was.lower.xyz;
     precise vec3 below = was.upper.xyz - (box.upper.xyz - travel);
@@ -60,7 +66,7 @@ void begin(int place, int count) {
     if (owner >= 0) box = cell_box(texel_of(place), cloth_at(texel_of(place)));
     boxes[place] = box;
     SelfBox was = SelfBox(imageLoad(kept, 2 * place), imageLoad(kept, 2 * place + 1));
-    bool left = has_left(box, was);
+    bool left = has_left(box, was, travel_at(place));
     left = owner >= 0 ? left : false;
     searches = left ? true : searches;
     before[place] = vec4(imageLoad(displacements, texel_of(place)).xyz, 0.0f);
@@ -74,7 +80,7 @@ void begin_search() {
     sizes[self_size_blocks].x = uint((self_tree_count(push.grid, 1) + workgroup_width - 1) / workgroup_width);
     record[0].block_count = 0u;
     record[0].candidate_count = 0u;
-    record[0].travel = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    for (int member = 0; member < member_count; ++member) record[member].travel = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 /// The last workgroup knows what all have asked for.
@@ -85,8 +91,8 @@ void end_workgroup() {
 }
 
 void main() {
-    carried = record[0].carried.xyz;
-    travel = record[0].travel.xyz;
+    load_carried();
+    first_travel = record[0].travel.xyz;
     int count = push.grid.x * push.grid.y;
     FOR_EVERY(place, count, begin(place, count))
 #ifdef CROSSED

@@ -25,7 +25,7 @@ layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer supports;
 #define SUMS_IN_SLOT 9
 #include "include/self_sums.h"
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
 
 struct Corner {
     vec3 motion;  // by the impulses of the round before, m
@@ -37,9 +37,9 @@ Corner corner_of(uint which, SelfCloth cloth) {
     int place = place_of(texel);
     precise float mass = imageLoad(positions, texel).w * cloth.lightness;
     vec3 moved = imageLoad(displacements, texel).xyz;
-    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place)), mass);
+    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place), cloth.largest), mass);
     Support support = Support(imageLoad(supports, 2 * place), imageLoad(supports, 2 * place + 1));
-    vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried);
+    vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried_at(place));
     return Corner(motion, mass, self_holds(sum_of(0, place).z_weight.z));
 }
 
@@ -61,15 +61,15 @@ void work(bool edges, int entry) {
     touch.impulse.xyz = self_next_impulse(touch, relative, yields);
     touching[entry].impulse = touch.impulse;
     bool presses = touch.impulse.x != 0.0f || touch.impulse.y != 0.0f || touch.impulse.z != 0.0f;
-    if (presses) add_impulse(push.round + 1, edges, touch.corners, touch.weights, touch.impulse.xyz);
+    if (presses) add_impulse(push.round + 1, edges, touch.corners, touch.weights, touch.impulse.xyz, one.largest);
     float leads = push.round == 0 ? self_leading(touch, yields) : 0.0f;
     precise vec3 leading = touch.normal.xyz * leads;
-    if (leads > 0.0f) add_impulse(self_sum_of_thickness, edges, touch.corners, touch.weights, leading);
+    if (leads > 0.0f) add_impulse(self_sum_of_thickness, edges, touch.corners, touch.weights, leading, one.largest);
     if (push.round == self_iterations - 1 && presses) bear(edges, touch);
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    load_carried();
     int points = self_both_listed(record[0].touching_point_count, record[0].touching_edge_count,
                                   push.touching_capacity);
     int edges = self_both_listed(record[0].touching_edge_count, record[0].touching_point_count,

@@ -1,8 +1,8 @@
 // This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
-// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on. The pass of the last
-// cloth begins the substep's contact too: its first workgroup finds the motion that all particles are measured against,
-// which a few samples have in common, or none where some particles are always held, and resets the records of the
-// passes to come.
+// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on. The pass of a member's last
+// cloth begins its contact in the substep too: the first workgroup finds the motion that all of its particles are
+// measured against, which a few samples have in common, or none where some are always held, and resets the records of
+// the passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variants MASKED SUPPORTED BUFFERED
@@ -11,8 +11,8 @@
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(SelfClothPush)
-#define STATE_COLUMNS push.sheet.x
+CLOTH_CONSTANTS(SelfClothPush)
+#define TOGETHER
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
@@ -39,7 +39,7 @@ shared float parts[workgroup_width];
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
 #ifdef MASKED
-    return (imageLoad(cells, cell).x & uint(which)) != 0u;
+    return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
 #else
     return true;
 #endif
@@ -58,28 +58,28 @@ uint owned(ivec2 texel) {
 
 void lay(ivec2 texel) {
     ivec2 laid = push.first + texel;
-    STORE_VECTOR(positions, laid, imageLoad(position, texel));
-    vec3 moved = imageLoad(displacement, texel).xyz;
-    STORE_VECTOR(displacements, laid, vec4(moved, float(owned(texel))));
+    STORE_IN_COLUMNS(positions, laid, push.sheet.x, LOAD(position, texel));
+    vec3 moved = LOAD(displacement, texel).xyz;
+    STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
 #ifdef SUPPORTED
     // It is taken back, as this substep's last collision says where a particle lies then.
-    vec4 plane = imageLoad(support, texel);
+    vec4 plane = LOAD(support, texel);
     int at = 2 * (laid.y * push.sheet.x + laid.x);
     supports[at] = plane;
-    supports[at + 1] = imageLoad(support_grip, texel);
-    if (plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f) imageStore(support, texel, vec4(0.0f));
+    supports[at + 1] = LOAD(support_grip, texel);
+    if (plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f) imageStore(support, placed(texel), vec4(0.0f));
 #endif
 }
 
 void lay_all() { FOR_STRIP(texel, push.grid, lay(texel)) }
 
-/// Returns the motion of a sample, k-th of all cloths'.
+/// Returns the motion of a sample, k-th of all the member's cloths'.
 vec3 sample_of(int k) {
-    SelfCloth cloth = cloths[k / self_cloth_samples];
+    SelfCloth cloth = cloths[push.member * push.cloth_count + k / self_cloth_samples];
     ivec2 own = self_sample(cloth.grid, k % self_cloth_samples);
     // This pass may not have laid its own cloth yet.
-    if (cloth.first == push.first) return imageLoad(displacement, own).xyz;
-    return LOAD_KEPT(displacements, cloth.first + own).xyz;
+    if (cloth.first == push.first) return LOAD(displacement, own).xyz;
+    return LOAD_IN_COLUMNS(displacements, cloth.first + own, push.sheet.x).xyz;
 }
 
 /// Returns the mean motion of all samples, which a workgroup loads at once and one invocation adds up in their order: on
@@ -115,25 +115,25 @@ float least_part_of(vec3 mean, int count) {
 
 void reset_sizes() {
     for (int k = 0; k < self_size_count; ++k) sizes[k] = uvec4(0u, 1u, 1u, 0u);
-    if (push.begins_frame != 0) sizes[self_size_search].x = 1u;
+    if (given.begins_frame != 0) sizes[self_size_search].x = 1u;
 }
 
-void reset_record() {
-    record[0].point_count = 0u;
-    record[0].edge_count = 0u;
-    record[0].near_point_count = 0u;
-    record[0].near_edge_count = 0u;
-    record[0].cell_count = 0u;
-    record[0].touching_point_count = 0u;
-    record[0].touching_edge_count = 0u;
-    if (push.begins_frame == 0) return;
-    record[0].most_pairs = 0u;
-    record[0].most_near = 0u;
-    record[0].most_cells = 0u;
-    record[0].most_touching = 0u;
-    record[0].most_lag = 0u;
-    record[0].unproved = 0u;
-    record[0].truncated = 0u;
+void reset_record(int member) {
+    record[member].point_count = 0u;
+    record[member].edge_count = 0u;
+    record[member].near_point_count = 0u;
+    record[member].near_edge_count = 0u;
+    record[member].cell_count = 0u;
+    record[member].touching_point_count = 0u;
+    record[member].touching_edge_count = 0u;
+    if (given.begins_frame == 0) return;
+    record[member].most_pairs = 0u;
+    record[member].most_near = 0u;
+    record[member].most_cells = 0u;
+    record[member].most_touching = 0u;
+    record[member].most_lag = 0u;
+    record[member].unproved = 0u;
+    record[member].truncated = 0u;
 }
 
 void begin_contact() {
@@ -141,11 +141,12 @@ void begin_contact() {
     vec3 mean = mean_of_samples(count);
     vec3 made = self_common_motion(mean, least_part_of(mean, count));
     if (gl_LocalInvocationIndex > 0u) return;
-    record[0].carried = vec4(push.held != 0 ? vec3(0.0f, 0.0f, 0.0f) : made, 0.0f);
-    record[0].travel = vec4(self_travelled(record[0].travel.xyz, record[0].mean.xyz), 0.0f);
-    record[0].mean = vec4(mean, 0.0f);
-    reset_record();
-    reset_sizes();
+    int member = push.member;
+    record[member].carried = vec4(push.held != 0 ? vec3(0.0f, 0.0f, 0.0f) : made, 0.0f);
+    record[member].travel = vec4(self_travelled(record[member].travel.xyz, record[member].mean.xyz), 0.0f);
+    record[member].mean = vec4(mean, 0.0f);
+    reset_record(member);
+    if (member == 0) reset_sizes();
 }
 
 void main() {

@@ -20,7 +20,7 @@ layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
 
 bool cuts_short = false;
 
@@ -33,6 +33,7 @@ struct Corner {
 
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
+    vec3 carried = carried_at(corner.place);
     if (!corner.held) moved = self_bounded(moved, imageLoad(before, corner.place).xyz, carried, thickness);
     return self_relative_motion(moved, carried);
 }
@@ -46,8 +47,8 @@ Corner corner_of(uint which) {
     return Corner(place, x.xyz, !(x.w > 0.0f), 0.0f, share);
 }
 
-void bound(SelfGap gap, Corner corner, float middle, float end, float side) {
-    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, push.least);
+void bound(SelfGap gap, Corner corner, float middle, float end, float side, float least) {
+    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, least);
     if (share < 1.0f) {
         atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
         cuts_short = true;
@@ -66,14 +67,14 @@ void bound_pair(bool edges, uvec4 pair) {
     vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     vec4 wants = self_wants(vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     float middle = self_middle(edges, gap.apart, end, wants);
-    bound(gap, a, middle, end.x, 1.0f);
-    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f);
-    bound(gap, c, middle, end.z, -1.0f);
-    bound(gap, d, middle, end.w, -1.0f);
+    bound(gap, a, middle, end.x, 1.0f, one.least);
+    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f, one.least);
+    bound(gap, c, middle, end.z, -1.0f, one.least);
+    bound(gap, d, middle, end.w, -1.0f, one.least);
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    load_carried();
     int points = self_both_listed(record[0].point_count, record[0].edge_count, push.pair_capacity);
     int edges = self_both_listed(record[0].edge_count, record[0].point_count, push.pair_capacity);
     FOR_EVERY(i, points, bound_pair(false, pairs[i]))

@@ -26,7 +26,7 @@ layout(set = 0, binding = 10, rgba32f) uniform readonly imageBuffer kept;
 layout(set = 0, binding = 11, std430) readonly buffer Blocks { ivec2 blocks[]; };
 #include "include/self_lists.h"
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
 
 SelfBox box_at(int place) { return SelfBox(imageLoad(boxes, 2 * place), imageLoad(boxes, 2 * place + 1)); }
 SelfBox kept_at(int place) { return SelfBox(imageLoad(kept, 2 * place), imageLoad(kept, 2 * place + 1)); }
@@ -114,7 +114,9 @@ SelfCloth cloth;  // whose close cells this workgroup looks at
 /// Returns where a particle of the cloth's grid lies on the sheet. Beyond the grid its last column or row stands in.
 ivec2 texel_at(ivec2 own) { return cloth.first + min(own, cloth.grid - 1); }
 vec3 at(ivec2 own) { return imageLoad(positions, texel_at(own)).xyz; }
-vec3 moved(ivec2 own) { return self_relative_motion(imageLoad(displacements, texel_at(own)).xyz, carried); }
+vec3 moved(ivec2 own) {
+    return self_relative_motion(imageLoad(displacements, texel_at(own)).xyz, carried_at(texel_at(own)));
+}
 
 SelfColumn column_at(ivec2 first) {
     return SelfColumn(at(first), at(first + ivec2(0, 1)), at(first + ivec2(0, 2)), at(first + ivec2(0, 3)));
@@ -174,7 +176,7 @@ void judge_close() {
     int which = int(gl_WorkGroupID.z);
     cloth = push.cloth;
     if (cloth_count > 1) cloth = cloths[which];
-    bool meets = meetings[which * (push.cloth_count + 1)] != self_meets_not;
+    bool meets = meetings[which % cloths_each() * (cloths_each() + 1)] != self_meets_not;
     // The parts have equal length and are counted row by row, so that few lanes of a subgroup have nothing to do.
     int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
     int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x),
@@ -206,7 +208,7 @@ void judge_close() {
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    load_carried();
     judge_all_far();
     judge_close();
     dispatch(self_size_primitives, reached);

@@ -21,12 +21,13 @@ layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 layout(set = 0, binding = 9, std430) buffer Touching { SelfTouch touching[]; };
 #include "include/self_lists.h"
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
 uint touches = 0u;
 
 vec3 where(uint corner) { return imageLoad(positions, self_texel(corner)).xyz; }
 vec3 moved(uint corner) {
-    return self_relative_motion(imageLoad(displacements, self_texel(corner)).xyz, carried);
+    ivec2 texel = self_texel(corner);
+    return self_relative_motion(imageLoad(displacements, texel).xyz, carried_at(texel));
 }
 
 /// Returns whether a pair is listed, and whether it touches.
@@ -74,7 +75,7 @@ void judge_edges(uint entry) {
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    load_carried();
     int points = self_both_listed(record[0].near_point_count, record[0].near_edge_count, push.near_capacity);
     int edges = self_both_listed(record[0].near_edge_count, record[0].near_point_count, push.near_capacity);
     FOR_EVERY(i, points, judge_point(near[i]))

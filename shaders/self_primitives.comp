@@ -34,7 +34,7 @@ void chain(int entry) {
     borne[entry + 1].force.w = next * 2u + (borne[entry + 1].force.w & 1u);
 }
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+#include "include/self_carried.h"
 
 /// A cell has the boxes of its first particle and of the triangles and edges that this owns.
 struct Cell {
@@ -44,10 +44,10 @@ struct Cell {
 };
 
 struct Corner {
-    vec3 at, motion;  // place at the substep's start and motion against `carried`, m
+    vec3 at, motion;  // place at the substep's start and motion against the carried one, m
 };
 Corner corner_at(ivec2 texel, vec3 displacement) {
-    return Corner(imageLoad(positions, texel).xyz, self_relative_motion(displacement, carried));
+    return Corner(imageLoad(positions, texel).xyz, self_relative_motion(displacement, carried_at(texel)));
 }
 Corner corner_at(ivec2 texel) { return corner_at(texel, imageLoad(displacements, texel).xyz); }
 
@@ -149,7 +149,7 @@ void judge(int entry) {
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    load_carried();
     int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
     FOR_EVERY(half_sum, push.grid.x * push.grid.y * self_sum_count * 2, clear(half_sum))

@@ -45,10 +45,11 @@ void move(int place) {
     float inverse_mass = imageLoad(positions, texel).w;
     if (owner_of(place) < 0 || !(inverse_mass > 0.0f)) return;
     vec4 moved = imageLoad(displacements_in, texel);
-    precise float mass = inverse_mass * cloth_at(texel).lightness;
+    SelfCloth cloth = cloth_at(texel);
+    precise float mass = inverse_mass * cloth.lightness;
     vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
-    vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place)) : nothing;
-    vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place)) : nothing;
+    vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place), cloth.largest) : nothing;
+    vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place), cloth.largest) : nothing;
     vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass));
 #ifdef CROSSED
     vec3 by = led[max(owner_of(place), 0)].xyz;

@@ -14,7 +14,8 @@
 #include "include/self_impulse.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(SelfClothPush)
+CLOTH_CONSTANTS(SelfClothPush)
+#define TOGETHER
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
@@ -38,7 +39,7 @@ layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]
 layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
 
-vec3 carried;  // record[0].carried, read where nothing has branched yet (docs/devices.md)
+vec3 carried;  // the member's, read where nothing has branched yet (docs/devices.md)
 
 struct Motion {
     bool held, cut, pushed, led;
@@ -51,7 +52,7 @@ int place_of(ivec2 texel) { return (push.first.y + texel.y) * push.sheet.x + pus
 Motion motion_of(ivec2 texel) {
     int place = place_of(texel);
     float share = uintBitsToFloat(shares[(self_rounds - 1) * push.sheet.x * push.sheet.y + place]);
-    bool held = !(imageLoad(position_in, texel).w > 0.0f);
+    bool held = !(LOAD(position_in, texel).w > 0.0f);
     vec3 moved = imageLoad(displacements, push.first + texel).xyz;
     vec4 was = imageLoad(before, place);
     vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
@@ -92,18 +93,18 @@ void end_motion(ivec2 texel) {
         return;
     }
     vec3 made = made_of(motion), velocity = velocity_of(place_of(texel), motion);
-    vec4 start = imageLoad(position_in, texel);
+    vec4 start = LOAD(position_in, texel);
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
-    STORE_TRIPLE(displacement_out, texel, velocity, imageLoad(displacement_in, texel).w);
+    STORE_TRIPLE(displacement_out, texel, velocity, LOAD(displacement_in, texel).w);
 #if defined(HISTORY) || defined(BEFORE)
-    vec3 last = imageLoad(displacement_before_in, texel).xyz;
+    vec3 last = LOAD(displacement_before_in, texel).xyz;
     if (motion.cut || motion.pushed)
         STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.
-    if (imageLoad(line_control, ivec2(control_hold, 0)).x < line_hold_contact)
-        imageAtomicMax(line_control, ivec2(control_hold, 0), line_hold_contact);
+    if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
 #endif
 }
 
@@ -121,10 +122,10 @@ void count_lists() {
 }
 
 void main() {
-    carried = record[0].carried.xyz;
+    carried = record[push.member].carried.xyz;
     end_all();
-    if (unproved > 0u) atomicAdd(record[0].unproved, unproved);
-    if (truncated > 0u) atomicAdd(record[0].truncated, truncated);
-    if (lag > 0.0f) atomicMax(record[0].most_lag, floatBitsToUint(lag));
-    if (push.cloth_count > 0 && gl_GlobalInvocationID.xy == uvec2(0u)) count_lists();
+    if (unproved > 0u) atomicAdd(record[push.member].unproved, unproved);
+    if (truncated > 0u) atomicAdd(record[push.member].truncated, truncated);
+    if (lag > 0.0f) atomicMax(record[push.member].most_lag, floatBitsToUint(lag));
+    if (push.cloth_count > 0 && push.member == 0 && gl_GlobalInvocationID.xy == uvec2(0u)) count_lists();
 }

@@ -20,7 +20,12 @@ const int side = self_tile_side;
 shared SelfBox nodes[side * side * 4 / 3];  // of the levels over a workgroup's cells, each a quarter of the one below
 shared bool is_last;                        // whether this workgroup is the last one
 
-vec3 mean;  // record[0].mean, read where nothing has branched yet (docs/devices.md)
+vec3 first_mean;  // record[0].mean, read where nothing has branched yet (docs/devices.md)
+vec3 mean_at(int place) {
+    vec3 mean = first_mean;
+    if (member_count > 1) mean = record[member_at(place)].mean.xyz;
+    return mean;
+}
 
 /// Keeps the box of a node in the level whose first box is the `first`. Past the sheet's edge there is none.
 void keep(int first, ivec2 size, ivec2 node, SelfBox box) {
@@ -35,7 +40,7 @@ SelfBox cell_box(ivec2 texel) {
     ivec2 inside = min(texel, push.grid - 1);
     int place = place_of(inside);
     SelfBox own = SelfBox(imageLoad(boxes, 2 * place), imageLoad(boxes, 2 * place + 1));
-    SelfBox box = self_kept_box(own, imageLoad(displacements, inside).xyz, mean, push.margin);
+    SelfBox box = self_kept_box(own, imageLoad(displacements, inside).xyz, mean_at(place), push.margin);
     bool is_cell = inside == texel && owner_of(place) >= 0;
     if (!is_cell) box = self_no_box();
     keep(0, push.grid, texel, box);
@@ -101,7 +106,7 @@ void make_rest(int first, int last) {
 }
 
 void main() {
-    mean = record[0].mean.xyz;
+    first_mean = record[0].mean.xyz;
     int first = make_tile(ivec2(gl_WorkGroupID.xy));
     memoryBarrierBuffer();
     barrier();

@@ -15,7 +15,6 @@ bool always(Context) { return true; }
 bool has_skins(Context c) { return !c.contact.skins.empty(); }
 bool crossed(Context c) { return !c.contact.to_part.empty(); }
 
-FieldExtent one(Context) { return {1}; }
 FieldExtent sheet(Context c) {
     const glsl::ivec2 grid = c.contact.push.grid;
     return {static_cast<std::uint64_t>(grid.x), static_cast<std::uint64_t>(grid.y)};
@@ -72,7 +71,8 @@ std::vector<ContactRow> rows() {
         {led_ways, "led ways", texel_buffer, vector, device, always, places},
         {shares, "shares", buffer, integer, device, always,
          [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_rounds}; }},
-        {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always, one},
+        {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always,
+         [](Context c) { return FieldExtent{c.contact.member_count}; }},
         {sizes, "sizes", buffer, layout_of<glsl::uvec4>(), device, always,
          [](Context) { return FieldExtent{glsl::self_size_count}; }},
     };
@@ -108,6 +108,50 @@ std::uint32_t borne_count(std::span<const std::byte> bytes) {
     std::uint32_t count = 0;
     if (bytes.size() >= sizeof count) std::memcpy(&count, bytes.data(), sizeof count);
     return count;
+}
+
+namespace {
+
+/// Corners name column and row in 16 bits each.
+glsl::uint packed(glsl::ivec2 texel) {
+    return static_cast<glsl::uint>(texel.x) | static_cast<glsl::uint>(texel.y) << 16;
+}
+
+void shift(glsl::SelfBorne& entry, glsl::uint by) {
+    for (glsl::uint* const corner : {&entry.corners.x, &entry.corners.y, &entry.corners.z, &entry.corners.w})
+        *corner += by;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::byte>> borne_by_member(const std::vector<glsl::SelfBorne>& list,
+                                                    const SelfContact& contact) {
+    std::vector<std::vector<glsl::SelfBorne>> lists(contact.member_count, std::vector<glsl::SelfBorne>(1));
+    const std::size_t end = std::min<std::size_t>(list.size(), list.front().corners.x + std::size_t{1});
+    for (std::size_t k = 1; k < end; ++k) {
+        const glsl::uint corner = list[k].corners.x;
+        const std::size_t member =
+            contact.member_of({static_cast<int>(corner & 0xffffu), static_cast<int>(corner >> 16)});
+        shift(lists[member].emplace_back(list[k]), 0u - packed(contact.corner_of(member)));
+    }
+    std::vector<std::vector<std::byte>> states;
+    for (std::vector<glsl::SelfBorne>& each : lists) {
+        each.front().corners.x = static_cast<glsl::uint>(each.size() - 1);
+        states.push_back(borne_state(std::move(each)));
+    }
+    return states;
+}
+
+std::vector<glsl::SelfBorne> borne_of_all(const std::vector<std::vector<std::byte>>& states,
+                                          const SelfContact& contact) {
+    std::vector<glsl::SelfBorne> all(1);
+    for (std::size_t member = 0; member < states.size(); ++member) {
+        std::vector<glsl::SelfBorne> own(states[member].size() / sizeof(glsl::SelfBorne));
+        std::memcpy(own.data(), states[member].data(), own.size() * sizeof(glsl::SelfBorne));
+        for (std::size_t k = 1; k < own.size(); ++k) shift(all.emplace_back(own[k]), packed(contact.corner_of(member)));
+    }
+    all.front().corners.x = static_cast<glsl::uint>(all.size() - 1);
+    return all;
 }
 
 bool is_borne_state(std::span<const std::byte> bytes, const SelfContact& contact) {

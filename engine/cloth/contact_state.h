@@ -57,6 +57,12 @@ std::string resource_name(const ContactRow& row);
 std::vector<std::byte> borne_state(std::vector<glsl::SelfBorne> list);
 /// Returns whether bytes are such a state, of places on this sheet.
 bool is_borne_state(std::span<const std::byte> bytes, const SelfContact& contact);
+/// Splits the list of what pairs bore into states of the members (SelfContact), each as of a run of its own.
+std::vector<std::vector<std::byte>> borne_by_member(const std::vector<glsl::SelfBorne>& list,
+                                                    const SelfContact& contact);
+/// Joins such states to a list.
+std::vector<glsl::SelfBorne> borne_of_all(const std::vector<std::vector<std::byte>>& states,
+                                          const SelfContact& contact);
 /// Returns how many entries follow the first one.
 std::uint32_t borne_count(std::span<const std::byte> bytes);
 

@@ -14,6 +14,9 @@ namespace {
 
 using Difference = std::optional<std::string>;
 
+/// On a CPU a dispatch costs as much as the contact of a few hundred particles, and each has to ask whose it is.
+constexpr std::size_t most_meeting_particles = std::size_t{24} * 24;
+
 template <class Value>
 Difference differ(const std::string& pointer, const Value& first, const std::type_identity_t<Value>& other) {
     if (first == other) return std::nullopt;
@@ -116,7 +119,11 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     if (model.asked_method == SolverMethod::automatic)
         return "method auto gives each member substeps of its own: name the method that it chooses";
     if (model.has_companions()) return "companion runs estimate the error of each member";
-    if (model.self_contact) return "contact between cloths works on all cloths of a scene at once";
+    const auto is_large = [](const ClothModel& cloth) { return cloth.grid.particle_count() > most_meeting_particles; };
+    if (model.self_contact && model.options.device == DeviceKind::cpu && std::ranges::any_of(model.cloths, is_large))
+        return "on a CPU, contact of cloths so large takes as long one after the other";
+    if (model.self_contact && !model.self_contact->crossed.empty())
+        return "cloths that start through each other are worked apart, in each member as long as it takes";
     if (model.scene.comes_apart()) return "cuts and tears make the members' cloths differ";
     if (!model.mesh_fields.empty()) return "distances to meshes are known as far as each member's contact asks";
     if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))

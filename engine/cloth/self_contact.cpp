@@ -151,8 +151,51 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
                 places * capacity_per_particle.cells, places * capacity_per_particle.touching};
     push.top = top_level(push.grid);
     push.cloth_count = static_cast<int>(count);
+    push.member_size = push.grid;
+    for (glsl::SelfCloth& cloth : cloths) {
+        cloth.least = push.least;
+        cloth.largest = push.thickness;
+    }
     push.cloth = cloths.front();
     lay_skins(scene, models);
+}
+
+SelfContact::SelfContact(const std::vector<const SelfContact*>& members)
+    : push(members.front()->push),
+      capacity{},
+      largest(members.front()->largest),
+      held(members.front()->held),
+      member_count(members.size()),
+      meetings(members.front()->meetings) {
+    const glsl::ivec2 own = push.grid;
+    const int count = static_cast<int>(members.size());
+    // A cloth that is alone on the sheet covers it (shaders/include/self_cloths.h).
+    if (count > 1) push.member_size = {stepped(own.x), stepped(own.y)};
+    const int across =
+        std::clamp(static_cast<int>(std::sqrt(double(count) * push.member_size.y / push.member_size.x)), 1, count);
+    push.grid = {across * push.member_size.x, ((count - 1) / across + 1) * push.member_size.y};
+    push.top = top_level(push.grid);
+    push.cloth_count = static_cast<int>(member_count * members.front()->cloths.size());
+    if (!members.front()->skins.empty()) skins.resize(place_count());
+    for (int k = 0; k < count; ++k) {
+        const SelfContact& member = *members[static_cast<std::size_t>(k)];
+        const glsl::ivec2 corner{k % across * push.member_size.x, k / across * push.member_size.y};
+        push.thickness = std::max(push.thickness, member.push.thickness);
+        push.least = std::max(push.least, member.push.least);
+        push.margin = std::min(push.margin, member.push.margin);
+        for (glsl::SelfCloth cloth : member.cloths) {
+            cloth.first = {corner.x + cloth.first.x, corner.y + cloth.first.y};
+            cloths.push_back(cloth);
+        }
+        capacity.add(member.capacity);
+        for (std::size_t place = 0; place < member.skins.size(); ++place) {
+            const auto columns = std::size_t(own.x);
+            const std::size_t column = std::size_t(corner.x) + place % columns,
+                              row = std::size_t(corner.y) + place / columns;
+            skins[row * std::size_t(push.grid.x) + column] = member.skins[place];
+        }
+    }
+    push.cloth = cloths.front();
 }
 
 void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<ClothModel>& models) {
@@ -173,6 +216,11 @@ void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<Clo
     }
 }
 
+std::size_t SelfContact::member_of(glsl::ivec2 texel) const {
+    const int across = push.grid.x / push.member_size.x;
+    return static_cast<std::size_t>(texel.y / push.member_size.y * across + texel.x / push.member_size.x);
+}
+
 std::vector<int> SelfContact::owners() const {
     std::vector<int> all(place_count(), -1);
     for (std::size_t k = 0; k < cloths.size(); ++k)
@@ -186,8 +234,27 @@ std::vector<int> SelfContact::owners() const {
 
 glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, bool begins_frame) const {
     const glsl::SelfCloth& laid = cloths[cloth];
-    const int count = cloth + 1 == cloths.size() ? push.cloth_count : 0;
-    return {laid.grid, laid.first, push.grid, count, held ? 1 : 0, begins_frame ? 1 : 0, laid.thickness};
+    const std::size_t each = cloths_each();
+    const bool is_last = (cloth + 1) % each == 0;
+    return {laid.grid,
+            laid.first,
+            push.grid,
+            is_last ? static_cast<int>(each) : 0,
+            held ? 1 : 0,
+            begins_frame ? 1 : 0,
+            laid.thickness,
+            static_cast<int>(cloth / each),
+            static_cast<int>(member_count)};
+}
+
+void ContactCapacity::add(const ContactCapacity& other) {
+    const auto sum = [](std::uint32_t& own, std::uint32_t more) {
+        own = static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{own} + more, most_contact_entries));
+    };
+    sum(pairs, other.pairs);
+    sum(near, other.near);
+    sum(cells, other.cells);
+    sum(touching, other.touching);
 }
 
 double self_list_use(const ContactCapacity& capacity, const glsl::SelfRecord& record) {

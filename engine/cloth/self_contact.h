@@ -17,6 +17,7 @@ namespace drape {
 struct ContactCapacity {
     std::uint32_t pairs = 0, near = 0, cells = 0, touching = 0;
     bool operator==(const ContactCapacity&) const = default;
+    void add(const ContactCapacity& other);
 };
 
 /// A scene begins with these capacities per particle; crumpled cloth takes 10, 30 and 50.
@@ -33,6 +34,9 @@ struct SelfContact {
     /// never meet.
     SelfContact(const SceneDescription& scene, const std::vector<ClothModel>& models,
                 const std::vector<StartCrossing>& crossed);
+    /// Puts those of scenes of one shape (cloth/members.h), in none of which cloths start through each other, on one
+    /// sheet. Nothing of two members meets, and each keeps the constants that it has alone.
+    explicit SelfContact(const std::vector<const SelfContact*>& members);
 
     glsl::SelfContactPush push{};         ///< round and the capacity of the lists are set per step
     ContactCapacity capacity;             ///< capacity of the lists in the beginning
@@ -40,12 +44,19 @@ struct SelfContact {
     /// By place on the sheet; x: thickness kept between layers, m; y: square root of the friction coefficient. Empty:
     /// no cloth has maps of these.
     std::vector<glsl::vec2> skins;
-    glsl::ivec2 largest{};             ///< most columns and most rows of any cloth
-    bool held = false;                 ///< whether some particles are always held
-    std::vector<glsl::uint> meetings;  ///< by cloth and cloth: self_meets_not, self_meets or self_meets_apart + index
+    glsl::ivec2 largest{};  ///< most columns and most rows of any cloth
+    bool held = false;      ///< whether some particles are always held
+    std::size_t member_count = 1;
+    /// By cloth and cloth of a member: self_meets_not, self_meets or self_meets_apart + index.
+    std::vector<glsl::uint> meetings;
     std::vector<glsl::SelfCrossed> to_part;  ///< pairs of cloths that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< cloths that start through each other, or through themselves
     std::vector<int> owners() const;         ///< by place on the sheet: its cloth, or -1
+    /// Returns the first column and row of a member's rectangle on the sheet.
+    glsl::ivec2 corner_of(std::size_t member) const { return cloths[member * cloths_each()].first; }
+    /// Returns the member in whose rectangle a place is.
+    std::size_t member_of(glsl::ivec2 texel) const;
+    std::size_t cloths_each() const { return cloths.size() / member_count; }
     /// `begins_frame`: in the frame's first substep.
     glsl::SelfClothPush cloth_push(std::size_t cloth, bool begins_frame) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }

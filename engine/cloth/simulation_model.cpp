@@ -68,6 +68,10 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
         kept_colliders.insert(kept_colliders.end(), one.kept_colliders.begin(), one.kept_colliders.end());
         colliders_move = colliders_move || one.colliders_move;
     }
+    if (!members.front()->self_contact) return;
+    std::vector<const SelfContact*> contacts;
+    for (const SimulationModel* const member : members) contacts.push_back(&*member->self_contact);
+    self_contact.emplace(contacts);
 }
 
 void SimulationModel::add_colliders() {

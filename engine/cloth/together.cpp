@@ -60,6 +60,15 @@ struct StructureOf {
         structure.bend = sign(push.bend);
         return structure;
     }
+    /// Members' cloths come to contact together, each with its place on the sheet; those of one scene one by one, since
+    /// the last one looks at the others.
+    StepConstants operator()(glsl::SelfClothPush push) const {
+        if (push.member_count == 1) return push;
+        push.first = {};
+        push.thickness = 0;
+        push.member = 0;
+        return push;
+    }
     StepConstants operator()(const glsl::NestedPush& push) const {
         return glsl::NestedPush{push.grid, push.block_count, push.first_pin, sign(push.rest_length)};
     }
@@ -90,6 +99,8 @@ bool in_images(const Step& step) {
         case StepKind::tether:
         case StepKind::collider_edges:
         case StepKind::collide:
+        case StepKind::self_gather:
+        case StepKind::self_return:
             return true;
         default:
             return false;
@@ -142,7 +153,8 @@ bool same_schedule(const ClothModel& one, const ClothModel& other) {
 bool same_place(const Step& one, const Step& other) {
     return one.kind == other.kind && one.substep == other.substep && one.iteration == other.iteration &&
            one.last == other.last && one.count == other.count && one.conditional == other.conditional &&
-           one.after_edges == other.after_edges && one.turns == other.turns && one.kernel == other.kernel;
+           one.after_edges == other.after_edges && one.after_impulses == other.after_impulses &&
+           one.turns == other.turns && one.kernel == other.kernel;
 }
 
 bool same_step(const Step& one, const Step& other) {
@@ -227,6 +239,9 @@ void put(std::size_t cloth, std::vector<std::vector<std::size_t>>& lists, const 
         list->push_back(cloth);
 }
 
+/// Contact of a member's cloths begins with the last of them, so they are not laid on the sheet together.
+bool members_meet(const SimulationModel& model) { return model.member_count > 1 && model.self_contact; }
+
 }  // namespace
 
 bool have_same_numbers(const Cloth& one, const Cloth& other) {
@@ -257,12 +272,14 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
 
 std::vector<std::vector<std::size_t>> cloths_together(const SimulationModel& model) {
     std::vector<std::vector<std::size_t>> lists;
+    const std::size_t each = model.cloths.size() / model.member_count;
     for (const std::vector<std::size_t>& alike : cloths_alike(model.scene)) {
         std::vector<std::vector<std::size_t>> parts;
         for (const std::size_t cloth : alike)
             put(cloth, parts, [&](std::size_t first, std::size_t other) {
                 const ClothModel &one = model.cloths[first], &another = model.cloths[other];
-                return same_schedule(one, another) && same_scheme(one.scheme, another.scheme);
+                return same_schedule(one, another) && same_scheme(one.scheme, another.scheme) &&
+                       (!members_meet(model) || first % each == other % each);
             });
         for (std::vector<std::size_t>& part : parts)
             if (part.size() > 1) lists.push_back(std::move(part));

@@ -301,7 +301,7 @@ void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction
 }
 
 void ContactStep::add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse) {
-    const SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(push_.thickness));
+    const SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(cloth_of(all.x).largest));
     const auto units = [](ivec2 parts) { return std::int64_t{parts.x} + std::int64_t{parts.y} * (1 << 20); };
     const auto add = [&](uint corner, const SelfParts& parts) {
         auto& sum = contact_.sums[place(corner)].units[round];
@@ -321,7 +321,7 @@ vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
         return self_number({static_cast<uint>(bits), static_cast<uint>(bits >> 32)});
     };
     const auto& sum = contact_.sums[place].units[round];
-    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, push_.thickness);
+    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, cloth_at(place).largest);
 }
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
@@ -397,7 +397,7 @@ void ContactStep::limit() {
         for (std::size_t k = 0; k < 4; ++k) {
             const uint at = corner[k];
             const float share = self_share(gap, middle, component(end, k), corner_side(edges, static_cast<int>(k)),
-                                           component(all, k), shares[at], held(at), push_.least);
+                                           component(all, k), shares[at], held(at), cloth_at(at).least);
             next[at] = std::min(next[at], share);
         }
     }

@@ -56,6 +56,12 @@ Members made(const std::vector<SceneDescription>& scenes, const EnsembleControls
     return members;
 }
 
+std::optional<std::string> obstacle_of(const Members& members) {
+    for (const auto& member : members)
+        if (auto found = sharing_obstacle(member->model)) return found;
+    return std::nullopt;
+}
+
 }  // namespace
 
 struct Ensemble::Parts {
@@ -67,7 +73,7 @@ struct Ensemble::Parts {
                            if (!drape::sharing_obstacle(two.front()->model))
                                check_room(given.parts_->device, two, scenes.size(), run_options());
                        })),
-          obstacle(drape::sharing_obstacle(members.front()->model)) {
+          obstacle(obstacle_of(members)) {
         const bool acts = wanted.controls.wind || wanted.controls.pins || wanted.controls.colliders;
         if (acts && members.front()->model.closed_loop())
             throw Error(

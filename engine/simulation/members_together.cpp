@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "cloth/contact_state.h"
 #include "cloth/members.h"
 #include "simulation/member_runs.h"
 #include "solver/cloth_solver.h"
@@ -32,44 +33,34 @@ std::vector<const SimulationModel*> models_of(const Members& members, std::size_
 class MembersTogether : public MemberRuns {
   public:
     MembersTogether(const vulkan::Device& device, Members& members, std::size_t count, const MemberRunOptions& options)
-        : members_(members),
+        : device_(device),
+          members_(members),
           options_(options),
           cloths_each_(members.front()->model.cloths.size()),
           all_(models_of(members, count)),
           solver_(device, all_, options.kernels),
           slots_(device) {
-        plan(look_, false);
-        plan(step_, true);
+        plan_all();
     }
     std::uint64_t bytes() const { return graph::planned_bytes(plans()); }
-    void allocate(const vulkan::Device& device) {
-        pool_ = std::make_unique<graph::ResourcePool>(device, plans());
-        for (Planned* planned : {&look_, &step_})
-            planned->recorded = std::make_unique<graph::RecordedPlan>(planned->graph, planned->plan, *pool_,
-                                                                      graph::TimestampMode::stages);
-        solver_.upload(*pool_);
-        solver_.write_constants(*pool_, slot, all_.scene.solver.substeps);
-        positions_ = solver_.readback(*pool_, slot, "position");
-        moved_ = solver_.readback(*pool_, slot, "displacement");
-        excess_ = solver_.readback(*pool_, slot, "excess displacement");
-        if (options_.normals) normals_ = solver_.readback(*pool_, slot, "normal");
-        records_ = solver_.statistics_records(*pool_, slot);
+    void begin() {
+        allocate();
         submit(look_, 0);
         for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
         for (const auto& member : members_) start_statistics_.push_back(member->statistics);
     }
 
     void step(const std::function<void()>& meanwhile) override {
+        if (meet()) still_failed();
         submit(step_, 1, meanwhile);
+        while (meet() && lists_were_short()) submit(step_, 1);
         for (const auto& member : members_) ++member->frame;
         for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
     }
 
     void reset(std::span<const std::size_t> numbers) override {
-        std::map<std::size_t, const ClothBytes*> states;
-        for (const std::size_t number : numbers)
-            for (std::size_t k = 0; k < cloths_each_; ++k) states[number * cloths_each_ + k] = nullptr;
-        put(states);
+        put_starts(numbers);
+        if (meet()) put_borne(numbers, std::vector<std::vector<std::byte>>(numbers.size()));
         for (const std::size_t number : numbers) members_[number]->statistics = start_statistics_[number];
     }
 
@@ -80,10 +71,14 @@ class MembersTogether : public MemberRuns {
         const std::vector<ClothBytes> fields = solver_.download_cloths(*pool_, cloths);
         for (std::size_t k = 0; k < cloths_each_; ++k)
             for (const auto& [name, bytes] : fields[k]) state[fmt::format("field/{}/{}", k, name)] = bytes;
+        if (meet()) state[borne_part] = solver_.download_borne(*pool_)[number];
         return state;
     }
 
     void restore(std::span<const std::size_t> numbers, std::span<const SimulationState> saved) override {
+        std::vector<std::vector<std::byte>> borne;
+        if (meet())
+            for (std::size_t i = 0; i < numbers.size(); ++i) borne.push_back(borne_in(numbers[i], saved[i]));
         std::vector<ClothBytes> fields(numbers.size() * cloths_each_);
         std::map<std::size_t, const ClothBytes*> states;
         for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -95,6 +90,7 @@ class MembersTogether : public MemberRuns {
                 states[numbers[i] * cloths_each_ + k] = &own;
             }
         put(states);
+        if (meet()) put_borne(numbers, borne);
     }
 
     void look() override {
@@ -111,9 +107,102 @@ class MembersTogether : public MemberRuns {
 
   private:
     static constexpr std::uint32_t slot = 0;
+    static constexpr const char* borne_part = "contact/borne";
     using Views = std::vector<std::span<const float>>;
 
+    /// Returns whether members have contact of cloth with cloth: lists that may prove too short.
+    bool meet() const { return all_.self_contact.has_value(); }
+
+    void plan_all() {
+        plan(look_, false);
+        plan(step_, true);
+        if (!meet()) return;
+        for (const auto& [planned, step] : {std::pair{&keep_, AttemptStep::keep}, {&restore_, AttemptStep::restore}}) {
+            *planned = {};
+            solver_.declare(planned->graph, {});
+            solver_.add_attempt(planned->graph, step);
+            planned->plan = graph::make_plan(planned->graph);
+        }
+    }
+    std::vector<Planned*> planned() {
+        std::vector<Planned*> all{&look_, &step_};
+        if (meet()) all.insert(all.end(), {&keep_, &restore_});
+        return all;
+    }
+    void allocate() {
+        pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
+        for (Planned* each : planned())
+            each->recorded =
+                std::make_unique<graph::RecordedPlan>(each->graph, each->plan, *pool_, graph::TimestampMode::stages);
+        solver_.upload(*pool_);
+        solver_.write_constants(*pool_, slot, all_.scene.solver.substeps);
+        positions_ = solver_.readback(*pool_, slot, "position");
+        moved_ = solver_.readback(*pool_, slot, "displacement");
+        excess_ = solver_.readback(*pool_, slot, "excess displacement");
+        if (options_.normals) normals_ = solver_.readback(*pool_, slot, "normal");
+        records_ = solver_.statistics_records(*pool_, slot);
+    }
+    /// Gives the lists of contact the room that they now are to have.
+    void allocate_anew() {
+        const auto state = solver_.download_state(*pool_);
+        for (Planned* each : planned()) each->recorded.reset();
+        plan_all();
+        pool_.reset();
+        allocate();
+        solver_.upload_state(*pool_, state);
+    }
+
+    /// Returns whether the step has to be taken again, from its start and with longer lists. Throws VulkanError where
+    /// the device cannot list what it found.
+    bool lists_were_short() {
+        const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
+        const double use = solver_.self_list_use(record);
+        if (use <= 1) return false;
+        if (!solver_.grow_lists(record))
+            throw vulkan::VulkanError(
+                fmt::format("the members' cloths meet in more places than a buffer of the device can list: {:.3g} "
+                            "times as many; fewer members, more substeps or a smaller self_collision.thickness make "
+                            "them fewer",
+                            use));
+        slots_.submit(slot, restore_.recorded->commands(slot));
+        slots_.wait(slot);
+        allocate_anew();
+        return true;
+    }
+
+    /// Members that failed begin each frame as they start: what is not finite would meet itself everywhere.
+    void still_failed() {
+        std::vector<std::size_t> failed;
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            members_[k]->judge();
+            if (members_[k]->failure) failed.push_back(k);
+        }
+        if (!failed.empty()) put_starts(failed);
+    }
+    void put_starts(std::span<const std::size_t> numbers) {
+        std::map<std::size_t, const ClothBytes*> states;
+        for (const std::size_t number : numbers)
+            for (std::size_t k = 0; k < cloths_each_; ++k) states[number * cloths_each_ + k] = nullptr;
+        put(states);
+    }
+    /// Returns what pairs of a member bore in a saved state. Throws Error where it is not of this scene.
+    std::vector<std::byte> borne_in(std::size_t number, const SimulationState& state) const {
+        const auto part = state.find(borne_part);
+        if (part == state.end() || !is_borne_state(part->second, *members_[number]->model.self_contact))
+            throw Error("the saved state is not of this scene: what its contacts bore");
+        return part->second;
+    }
+    void put_borne(std::span<const std::size_t> numbers, const std::vector<std::vector<std::byte>>& own) {
+        std::vector<std::vector<std::byte>> all = solver_.download_borne(*pool_);
+        for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] = own[i];
+        if (solver_.upload_borne(*pool_, all)) return;
+        allocate_anew();
+        if (!solver_.upload_borne(*pool_, all))
+            throw vulkan::VulkanError("a buffer of the device has no room for what the members' contacts bore");
+    }
+
     void plan(Planned& planned, bool simulates) {
+        planned = {};
         graph::Graph& graph = planned.graph;
         solver_.declare(graph, {.drawing = options_.normals, .statistics = true});
         if (simulates) solver_.add_simulation(graph);
@@ -127,8 +216,11 @@ class MembersTogether : public MemberRuns {
         solver_.add_statistics(graph);
         planned.plan = graph::make_plan(graph);
     }
-    std::array<std::pair<const graph::Graph*, const graph::Plan*>, 2> plans() const {
-        return {{{&look_.graph, &look_.plan}, {&step_.graph, &step_.plan}}};
+    std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans() const {
+        std::vector<std::pair<const graph::Graph*, const graph::Plan*>> all{{&look_.graph, &look_.plan},
+                                                                            {&step_.graph, &step_.plan}};
+        if (meet()) all.insert(all.end(), {{&keep_.graph, &keep_.plan}, {&restore_.graph, &restore_.plan}});
+        return all;
     }
 
     /// Runs it with every member's inputs of a frame `further` than the one that it is at.
@@ -138,7 +230,10 @@ class MembersTogether : public MemberRuns {
             take_frame_inputs(members_[k]->model, members_[k]->frame + further, inputs_[k]);
         join_inputs(all_, inputs_, joined_);
         solver_.write_inputs(*pool_, slot, joined_, all_.scene.solver.substeps);
-        slots_.submit(slot, planned.recorded->commands(slot));
+        std::vector<VkCommandBuffer> commands;
+        if (further > 0 && meet()) commands.push_back(keep_.recorded->commands(slot));
+        commands.push_back(planned.recorded->commands(slot));
+        slots_.submit(slot, commands);
         if (meanwhile) meanwhile();
         slots_.wait(slot);
         milliseconds_ = 0;
@@ -180,7 +275,8 @@ class MembersTogether : public MemberRuns {
                           std::size_t{4} * grid.particle_count()};
         const auto of = [&](std::size_t member) { return views[member * cloths_each_ + cloth]; };
         const std::ptrdiff_t stride = array.members > 1 ? of(1).data() - of(0).data() : 0;
-        bool even = array.members == 1 || stride > 0;
+        // Where lists grow, what the device left moves, and arrays that were handed out must stay.
+        bool even = !meet() && (array.members == 1 || stride > 0);
         for (std::size_t k = 1; even && k < array.members; ++k) even = of(k).data() - of(k - 1).data() == stride;
         array.data = of(0).data();
         if (even && array.members > 1) array.member_stride = static_cast<std::size_t>(stride);
@@ -204,12 +300,14 @@ class MembersTogether : public MemberRuns {
         return {gathered.data(), members_.size(), grid.rows(), grid.columns(), stride};
     }
 
+    const vulkan::Device& device_;
     Members& members_;
     MemberRunOptions options_;
     std::size_t cloths_each_;
     SimulationModel all_;
     ClothSolver solver_;
     Planned look_, step_;
+    Planned keep_, restore_;  ///< of what a step begins with, where its members meet themselves
     std::unique_ptr<graph::ResourcePool> pool_;
     vulkan::FrameSlots slots_;  ///< goes, and waits for work in flight, before what that uses
     double milliseconds_ = 0;
@@ -234,7 +332,7 @@ void check_room(const vulkan::Device& device, Members& two, std::size_t count, c
 std::unique_ptr<MemberRuns> run_together(const vulkan::Device& device, Members& members,
                                          const MemberRunOptions& options) {
     auto together = std::make_unique<MembersTogether>(device, members, members.size(), options);
-    together->allocate(device);
+    together->begin();
     return together;
 }
 

@@ -111,6 +111,24 @@ std::map<std::string, std::vector<std::byte>> ClothSolver::download_state(const 
     return state;
 }
 
+std::vector<std::vector<std::byte>> ClothSolver::download_borne(const graph::ResourcePool& pool) const {
+    const vulkan::Buffer& buffer = pool.buffer(borne_name(StateSet::run));
+    std::vector<glsl::SelfBorne> list(buffer.description().byte_count / sizeof(glsl::SelfBorne));
+    vulkan::download(pool.device(), buffer, std::as_writable_bytes(std::span(list)));
+    return borne_by_member(list, *model_.self_contact);
+}
+
+bool ClothSolver::upload_borne(const graph::ResourcePool& pool, const std::vector<std::vector<std::byte>>& states) {
+    const std::vector<glsl::SelfBorne> all = borne_of_all(states, *model_.self_contact);
+    if (all.size() - 1 > contact_.capacity.touching) {
+        contact_.capacity.touching = static_cast<std::uint32_t>(all.size() - 1);
+        contact_.capacity = limited(contact_.capacity, most_list_bytes_);
+        return false;
+    }
+    vulkan::upload_range(pool.device(), pool.buffer(borne_name(StateSet::run)), 0, std::as_bytes(std::span(all)));
+    return true;
+}
+
 bool ClothSolver::takes(const std::string& name, std::span<const std::byte> now, std::span<const std::byte> saved) {
     if (!model_.self_contact || !std::ranges::count(names_in_sets(borne_name), name)) return now.size() == saved.size();
     if (!is_borne_state(saved, *model_.self_contact)) return false;

@@ -91,6 +91,10 @@ class ClothSolver {
     /// Uploads the state of some cloths and leaves the others as they are; null: as the cloth starts. Throws
     /// std::invalid_argument where one is not of such a cloth, before anything is uploaded.
     void upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states) const;
+    /// Fetches what pairs bore, by member, as a run of each of them has it (cloth/contact_state.h).
+    std::vector<std::vector<std::byte>> download_borne(const graph::ResourcePool& pool) const;
+    /// Uploads it. Returns false, and uploads nothing, where the list has no room for it until the next `declare`.
+    bool upload_borne(const graph::ResourcePool& pool, const std::vector<std::vector<std::byte>>& states);
     /// Returns what a field of a cloth starts with; nothing: with zeros.
     std::vector<std::byte> start_of_field(std::size_t cloth, Field field) const;
     /// Uploads the parts of a cut cloth's fields that differ from `before`.
@@ -125,6 +129,7 @@ class ClothSolver {
                                             const SimulationModel& run) const;
 
     /// Returns the record of contact between the cloths in the slot's last simulated frame, zeros where there is none.
+    /// Of members it is the first one's, whose counts of lists are those of all.
     glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
     /// Returns whether saved bytes can take the place of a part of the state as it is now; a list has room for them
     /// from the next `declare` on.

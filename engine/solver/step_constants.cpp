@@ -37,6 +37,7 @@ constexpr ConstantRow constant_rows[] = {
     {"advance", [](Place p) { return p.step.substep > 0 ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
+    {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
     {"touches", [](Place p) { return p.cloth->model->touches ? 1u : 0u; }},
     {"directions", direction_bits},

@@ -14,7 +14,11 @@ vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
         thickness = self_thickness_there(weights, vec4(a.x, b.x, c.x, d.x));
         friction = self_friction_there(edges, weights, vec4(a.y, b.y, c.y, d.y));
     }
-    float kept = self_pair_thickness(thickness, one, other, edges, self_texel(pair.x), self_texel(pair.y),
-                                     self_texel(pair.z), self_texel(pair.w));
+    // Distances are rounded as on the sheet that a member has alone.
+    ivec2 corner = ivec2(0);
+    if (member_count > 1) corner = self_texel(pair.x) / push.member_size * push.member_size;
+    float kept =
+        self_pair_thickness(thickness, one, other, edges, self_texel(pair.x) - corner, self_texel(pair.y) - corner,
+                            self_texel(pair.z) - corner, self_texel(pair.w) - corner);
     return vec2(kept, friction);
 }

@@ -31,9 +31,9 @@ void add_weight(uint corner, uint weight) {
 }
 #endif
 
-/// Adds what a contact gives each corner to a sum.
-void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impulse) {
-    SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(push.thickness));
+/// Adds what a contact gives each corner to a sum. `largest`: its scene's largest thickness.
+void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impulse, float largest) {
+    SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(largest));
     add_parts(which, corners.x, shares.a);
     add_parts(which, corners.y, shares.b);
     add_parts(which, corners.z, shares.c);
@@ -56,10 +56,10 @@ float sum_value(uint first, uint second) {
 #endif
 }
 
-/// Returns an impulse, in masses of the first cloth's particle times m.
-vec3 impulse_of(SelfSum sum) {
+/// Returns an impulse, in masses of the first cloth's particle times m. `largest`: its scene's largest thickness.
+vec3 impulse_of(SelfSum sum, float largest) {
     vec3 units =
         vec3(sum_value(sum.xy.x, sum.xy.y), sum_value(sum.xy.z, sum.xy.w), sum_value(sum.z_weight.x, sum.z_weight.y));
-    return self_impulse_of(units, push.thickness);
+    return self_impulse_of(units, largest);
 }
 #endif

@@ -77,7 +77,9 @@ struct SelfCloth {
     float thickness;   // m kept between its own layers
     float friction;    // between its own layers
     float least_flat;  // m, least distance of two primitives of the flat cloth that share no corner
-    float lightness;   // factor from its particles' relative inverse masses to those of the first cloth
+    float lightness;   // factor from its particles' relative inverse masses to those of its scene's first cloth
+    float least;       // m, distances that rounding leaves in doubt in its scene
+    float largest;     // m, the largest thickness that a cloth of its scene keeps
 };
 
 /// Two cloths that started through each other, and how they are worked apart.
@@ -101,12 +103,13 @@ const float self_parting_speed = 1.0f, self_parting_acceleration = 40.0f;
 const uint self_meets_not = 0u, self_meets = 1u, self_meets_apart = 2u;
 
 /// The particles of all cloths lie on one sheet, each cloth's grid at a place of its own and no two next to each other.
-/// So the sheet is treated as a grid, and a column and a row name a particle of the scene.
+/// So the sheet is treated as a grid, and a column and a row name a particle of the scene. The members of an ensemble
+/// have a rectangle of the sheet each, all of one size, in which their cloths lie alike.
 struct SelfContactPush {
     ivec2 grid;         // columns, rows of the sheet
-    float thickness;    // m, the largest that a cloth keeps
+    float thickness;    // m, the largest that any cloth keeps
     float step;         // s, of the substep
-    float least;        // m, distances that rounding leaves in doubt
+    float least;        // m, the largest distances that rounding leaves in doubt
     float margin;       // m by which the search for cells looks farther than it needs to and foresees
     int pair_capacity;  // capacity of the list of pairs
     int near_capacity;  // capacity of the list of pairs of primitives whose boxes are near each other
@@ -117,6 +120,7 @@ struct SelfContactPush {
     int crossed_count;      // pairs of cloths that started through each other
     int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
     SelfCloth cloth;        // the first cloth, looked up here where it is the only one
+    ivec2 member_size;      // columns, rows of a member's rectangle
 };
 
 /// Push constants of the passes between a cloth's own fields and the sheet.
@@ -124,13 +128,16 @@ struct SelfClothPush {
     ivec2 grid;        // the cloth's
     ivec2 first;       // where it lies on the sheet
     ivec2 sheet;       // columns, rows of the sheet
-    int cloth_count;   // cloths on the sheet where this is the last to be laid there and taken back, else 0
+    int cloth_count;   // the member's cloths where this is the last of them to be laid and taken back, else 0
     int held;          // gather: 1: some particles are always held, so that nothing is carried along with all
     int begins_frame;  // gather: 1: the frame's first substep
     float thickness;   // m kept between the cloth's own layers
+    int member;        // whose cloth it is
+    int member_count;  // of those on the sheet
 };
 
-/// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room.
+/// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room. Each
+/// member has a record of its own for motions and what was cut short; the lists are of all, counted in the first's.
 struct SelfRecord {
     vec4 carried;           // motion that all particles are measured against in this substep; w unused
     vec4 mean;              // mean motion of a few particles in this substep, before contact; w unused
