@@ -31,7 +31,7 @@ layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D line_control_out
 
 void bring_control_home() {
     int texel = int(gl_GlobalInvocationID.x);
-    ivec2 at = ivec2(texel, gl_WorkGroupID.z);
+    ivec2 at = ivec2(texel, cloth_place());
     if (texel < control_texel_count && gl_GlobalInvocationID.y == 0u)
         imageStore(line_control_out, at, imageLoad(line_control_in, at));
 }

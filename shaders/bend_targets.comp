@@ -88,7 +88,7 @@ void main() {
     if (texel.x > last.x || texel.y > last.y) return;
     vec4 stiffness = push.stiffness;
 #ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) {
+    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) {
         stiffness = push.stiffness_bdf2;
         pulls_now = true;
     }

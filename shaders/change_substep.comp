@@ -26,7 +26,7 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (texel.x >= push.grid.x || texel.y >= push.grid.y) return;
-    SubstepChange change = attempt[push.cloth + int(gl_WorkGroupID.z)];
+    SubstepChange change = attempt[push.cloth + int(cloth_place())];
     ChangedSubstep changed =
         changed_substep(LOAD(displacement_in, texel).xyz, LOAD(end_excess_in, texel).xyz, change);
     imageStore(displacement_out, placed(texel), vec4(changed.displacement, 0.0f));

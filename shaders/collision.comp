@@ -190,8 +190,8 @@ bool meet_all(ivec2 texel, bool follows) {
 #ifdef HISTORY
     STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     // The load spares an atomic, as most particles that come here find the hold set.
-    if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
-        imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
+    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
 #endif
     return true;
 }

@@ -28,6 +28,6 @@ void main() {
     }
     record = joined_over_workgroup(record);
     if (gl_LocalInvocationIndex == 0u)
-        partials[(gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y) * gl_NumWorkGroups.x + gl_WorkGroupID.x] =
+        partials[(cloth_place() * gl_NumWorkGroups.y + gl_WorkGroupID.y) * gl_NumWorkGroups.x + gl_WorkGroupID.x] =
             record;
 }

@@ -7,7 +7,7 @@
 #include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-PUSH_CONSTANTS(DisturbPush)
+CLOTH_CONSTANTS(DisturbPush)
 #define TOGETHER
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;

@@ -286,5 +286,5 @@ void main() {
     if (first_iteration) eliminate_particles(line);
     float largest = eliminate_springs(line);
     substitute_springs(line);
-    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+    if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(line_control, ivec2(control_wrong_lines, cloth_place()), 1u);
 }

@@ -99,7 +99,7 @@ void report(bool is_wrong) {
     if (is_wrong) atomicOr(wrong[gl_LocalInvocationID.y], 1u);
     barrier();
     if (group_place == 0 && wrong[gl_LocalInvocationID.y] != 0u)
-        imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+        imageAtomicAdd(line_control, ivec2(control_wrong_lines, cloth_place()), 1u);
 }
 
 void main() {

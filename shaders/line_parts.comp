@@ -363,5 +363,5 @@ void main() {
     solve_springs();
     store_particles();
     if (lane == 0 && group == 0 && wrong[system] != 0u)
-        imageAtomicAdd(line_control, ivec2(control_wrong_lines, gl_WorkGroupID.z), 1u);
+        imageAtomicAdd(line_control, ivec2(control_wrong_lines, cloth_place()), 1u);
 }

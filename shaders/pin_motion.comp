@@ -17,6 +17,7 @@ void main() {
     int particle = int(gl_GlobalInvocationID.x);
     if (particle >= push.particle_count) return;
     ivec4 index = pinned_particles[particle].index;
+    if (!is_present(uint(index.w / push.rows))) return;
     PinMotion motion = pin_motions[push.motion_first + index.z];
     if (motion.held.x == 0.0f) return;
     vec3 moved = pin_displacement(motion, pinned_particles[particle].rest.xyz, imageLoad(position, index.xy).xyz);

@@ -78,6 +78,7 @@ void main() {
     if (particle >= given.particle_count) return;
     ivec4 index = pinned_particles[particle].index;
     int cloth = index.w / given.grid.y;
+    if (!is_present(uint(cloth))) return;
     push = constants_of(uint(cloth));  // a list of pins is of all cloths
     vec4 rest = pinned_particles[particle].rest;
     PinMotion motion = pin_motions[given.motion_first + index.z];

@@ -26,10 +26,10 @@ layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out
 
 bool second_order;  // decided where nothing has branched yet (docs/devices.md)
 
-uint control_before(int texel) { return imageLoad(line_control_in, ivec2(texel, gl_WorkGroupID.z)).x; }
+uint control_before(int texel) { return imageLoad(line_control_in, ivec2(texel, cloth_place())).x; }
 
 void store_control(int texel, uint value) {
-    imageStore(line_control_out, ivec2(texel, gl_WorkGroupID.z), uvec4(value, 0u, 0u, 0u));
+    imageStore(line_control_out, ivec2(texel, cloth_place()), uvec4(value, 0u, 0u, 0u));
 }
 
 /// Every invocation decides, and one of each cloth writes what it decided.

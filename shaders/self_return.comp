@@ -103,8 +103,8 @@ void end_motion(ivec2 texel) {
 #endif
 #ifdef HISTORY
     // The load spares an atomic, as most particles that come here find the hold set.
-    if (imageLoad(line_control, ivec2(control_hold, gl_WorkGroupID.z)).x < line_hold_contact)
-        imageAtomicMax(line_control, ivec2(control_hold, gl_WorkGroupID.z), line_hold_contact);
+    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
 #endif
 }
 

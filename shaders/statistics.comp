@@ -34,7 +34,7 @@ layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
 #include "include/rest_length.h"
 
-vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, gl_WorkGroupID.z)); }
+vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, cloth_place())); }
 
 /// The inverse mass w would not do, since held particles have a mass too.
 float mass_share_of(ivec2 texel) {
@@ -117,6 +117,6 @@ void main() {
         ++texel.y;
         if (texel.y >= end) break;
     }
-    partials[int(gl_GlobalInvocationID.z * gl_NumWorkGroups.y + gl_GlobalInvocationID.y) * push.grid.x + texel.x] =
+    partials[int(cloth_place() * gl_NumWorkGroups.y + gl_GlobalInvocationID.y) * push.grid.x + texel.x] =
         record;
 }

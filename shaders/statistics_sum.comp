@@ -18,7 +18,7 @@ void main() {
     StatisticsRecord record = empty_statistics();
     int chunk = int(gl_WorkGroupID.x) * statistics_chunk, end = min(chunk + statistics_chunk, push.partial_count);
     for (int i = chunk + int(gl_LocalInvocationIndex); i < end; i += workgroup_width)
-        record = joined(record, partials[int(gl_WorkGroupID.z) * push.partial_count + i]);
+        record = joined(record, partials[int(cloth_place()) * push.partial_count + i]);
     record = joined_over_workgroup(record);
-    if (gl_LocalInvocationIndex == 0u) result[gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
+    if (gl_LocalInvocationIndex == 0u) result[cloth_place() * gl_NumWorkGroups.x + gl_WorkGroupID.x] = record;
 }

@@ -56,7 +56,7 @@ void main() {
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     float compliance = push.compliance;
 #ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
+    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
 #endif
     vec3 correction = project_bend(difference, weight, share, compliance);
     STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));

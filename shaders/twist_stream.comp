@@ -84,7 +84,7 @@ void relax_between(inout Particle upper[columns + 1], inout Particle lower[colum
 void main() {
     compliance = push.compliance;
 #ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
+    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
 #endif
     Particle above[columns + 1], upper[columns + 1], lower[columns + 1];
     for (int c = 0; c <= columns; ++c) above[c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);

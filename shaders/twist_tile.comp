@@ -68,7 +68,7 @@ void relax(ivec2 colour, float compliance) {
 void main() {
     float compliance = push.compliance;
 #ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u) compliance = push.compliance_bdf2;
+    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
 #endif
     ivec2 texel = loaded_texel();
     vec4 start = LOAD(position, texel), displacement = LOAD(displacement_in, texel);

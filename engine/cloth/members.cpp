@@ -116,9 +116,9 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
 }
 
 std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
-    if (model.asked_method == SolverMethod::automatic)
-        return "method auto gives each member substeps of its own: name the method that it chooses";
-    if (model.has_companions()) return "companion runs estimate the error of each member";
+    if (model.closed_loop() && model.self_contact)
+        return "method auto does a frame again where lists of contact are too short, in each member by itself";
+    if (model.has_companions() && !model.closed_loop()) return "companion runs estimate the error of each member";
     const auto is_large = [](const ClothModel& cloth) { return cloth.grid.particle_count() > most_meeting_particles; };
     if (model.self_contact && model.options.device == DeviceKind::cpu && std::ranges::any_of(model.cloths, is_large))
         return "on a CPU, contact of cloths so large takes as long one after the other";

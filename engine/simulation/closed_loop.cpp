@@ -47,38 +47,32 @@ void FrameLoop::build_attempts() {
         }
 }
 
-FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps, StateSet set) {
-    Rung& rung = rungs_[static_cast<std::size_t>(set)][substeps];
-    if (rung.frame.recorded) return rung;
-    rung.model = std::make_unique<SimulationModel>(model_, substeps);
-    rung.frame = set == StateSet::run ? build(FrameKind::simulate, *rung.model) : build_beside(*rung.model, set);
-    rung.frame.recorded = recording(rung.frame);
-    return rung;
-}
-
 void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& attempt, const Asked& asked) {
     if (asked.stop && asked.stop()) throw Stopped();
     if (options_.on_attempt) options_.on_attempt({run.frame, run.substeps, attempt.number});
-    const Rung& rung = this->rung(run.substeps);
-    std::vector<VkCommandBuffer> all;
-    if (run.before) all.push_back(commands(*run.before, slot));
-    if (run.begins && run.substeps != state_substeps_) all.push_back(commands(AttemptStep::change_substep, slot));
-    all.push_back(rung.frame.recorded->commands(slot));
-    if (run.after) all.push_back(commands(*run.after, slot));
-    solver_.write_changes(*pool_, slot, substep_changes(model_, state_substeps_, run.substeps));
-    solver_.write_inputs(*pool_, slot, run.frame, *rung.model);
-    slots_.submit(slot, all);
+    LaneWork work{.frame = run.frame,
+                  .run = rung(run.substeps).model.get(),
+                  .changes = substep_changes(model_, state_substeps_, run.substeps)};
+    const auto add = [&](AttemptStep step) {
+        work.parts.push_back({LanePart::Kind::attempt, StateSet::run, step});
+    };
+    if (run.before) add(*run.before);
+    if (run.begins && run.substeps != state_substeps_) add(AttemptStep::change_substep);
+    work.parts.push_back({LanePart::Kind::substeps, StateSet::run, {}, run.substeps});
+    if (run.after) add(*run.after);
+    submit_parts(slot, work);
     kept_ = kept_ || run.before == AttemptStep::keep;
     if (options_.meanwhile) options_.meanwhile();
 }
 
 FrameLoop::Judged FrameLoop::take_judged(std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps) {
-    slots_.wait(slot);
+    wait(slot);
     const Rung& rung = this->rung(substeps);
-    Judged judged{solver_.statistics(*pool_, slot, frame, *rung.model), {.substeps = substeps}, {}};
-    for (graph::Timing& timing : rung.frame.recorded->timings(slot))
-        judged.timings.push_back({std::move(timing.name), timing.milliseconds});
-    judged.self_record = solver_.self_record(*pool_, slot);
+    Judged judged{statistics_in(slot, frame, *rung.model), {.substeps = substeps}, {}};
+    if (rung.frame.recorded)
+        for (graph::Timing& timing : rung.frame.recorded->timings(slot))
+            judged.timings.push_back({std::move(timing.name), timing.milliseconds});
+    judged.self_record = self_record_in(slot);
     fullest_.most_pairs = std::max(fullest_.most_pairs, judged.self_record.most_pairs);
     fullest_.most_near = std::max(fullest_.most_near, judged.self_record.most_near);
     fullest_.most_cells = std::max(fullest_.most_cells, judged.self_record.most_cells);
@@ -101,7 +95,7 @@ void FrameLoop::run_coarse(const Attempt& attempt, Judgement& judgement, const A
 
 /// Returns the estimated error over its limit, of the worst cloth.
 double FrameLoop::motion_of(std::uint32_t slot) {
-    const std::vector<double> differences = solver_.differences(*pool_, slot);
+    const std::vector<double> differences = differences_in(slot);
     double worst = motion_error_ = 0;
     for (std::size_t cloth = 0; cloth < differences.size(); ++cloth) {
         const double error = motion_error(model_, differences[cloth], control_->segment().frame_count);

@@ -18,25 +18,24 @@ FrameLoop::Frame FrameLoop::build_beside(const SimulationModel& run, StateSet se
 }
 
 void FrameLoop::submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps) {
-    const Rung& rung = this->rung(substeps, set);
     const std::uint32_t before = beside_substeps_[static_cast<std::size_t>(set)];
-    std::vector<VkCommandBuffer> all;
-    if (model_.self_contact) all.push_back(commands(AttemptStep::keep, slot, set));
-    if (substeps != before) all.push_back(commands(AttemptStep::change_substep, slot, set));
-    all.push_back(rung.frame.recorded->commands(slot));
-    solver_.write_changes(*pool_, slot, substep_changes(model_, before, substeps));
-    solver_.write_inputs(*pool_, slot, frame, *rung.model);
-    slots_.submit(slot, all);
+    LaneWork work{.frame = frame,
+                  .run = rung(substeps, set).model.get(),
+                  .changes = substep_changes(model_, before, substeps)};
+    if (model_.self_contact) work.parts.push_back({LanePart::Kind::attempt, set, AttemptStep::keep});
+    if (substeps != before) work.parts.push_back({LanePart::Kind::attempt, set, AttemptStep::change_substep});
+    work.parts.push_back({LanePart::Kind::substeps, set, {}, substeps});
+    submit_parts(slot, work);
 }
 
 bool FrameLoop::lengthen_lists_of(StateSet set, std::uint32_t slot, const Finished& finished) {
     if (!model_.self_contact) return false;
-    slots_.wait(slot);
-    const glsl::SelfRecord record = solver_.self_record(*pool_, slot);
+    wait(slot);
+    const glsl::SelfRecord record = self_record_in(slot);
     if (solver_.self_list_use(record) <= 1 || !solver_.grow_lists(record)) return false;
     deliver_all(finished);
-    slots_.submit(slot, {commands(AttemptStep::restore, slot, set)});
-    slots_.wait(slot);
+    submit_parts(slot, {.parts = {{LanePart::Kind::attempt, set, AttemptStep::restore}}});
+    wait(slot);
     rebuild_resources(solver_.download_state(*pool_));
     return true;
 }
@@ -67,9 +66,9 @@ std::vector<double> FrameLoop::compared_companions(const Companions& with, const
 
 std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finished) {
     const std::uint32_t slot = take_slot(finished);
-    slots_.submit(slot, {commands(step, slot)});
-    slots_.wait(slot);
-    return solver_.differences(*pool_, slot);
+    submit_parts(slot, {.parts = {{LanePart::Kind::attempt, StateSet::run, step}}});
+    wait(slot);
+    return differences_in(slot);
 }
 
 void FrameLoop::follow_segment(std::uint32_t frame, bool predictable, const Finished& finished) {
@@ -87,7 +86,7 @@ void FrameLoop::follow_segment(std::uint32_t frame, bool predictable, const Fini
     if (sensitivity_.begins(last, position_error_, predictable)) {
         sensitivity_.begin(last);
         const std::uint32_t slot = take_slot(finished);
-        slots_.submit(slot, {commands(AttemptStep::disturb, slot)});
+        submit_parts(slot, {.parts = {{LanePart::Kind::attempt, StateSet::run, AttemptStep::disturb}}});
         beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = with.companion;
     }
     control_->accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());

@@ -70,15 +70,18 @@ struct Ensemble::Parts {
           options(wanted),
           members(made(scenes, wanted.controls, ModelOptions{.device = device_kind(given.info())},
                        [&](Members& two) {
-                           if (!drape::sharing_obstacle(two.front()->model))
-                               check_room(given.parts_->device, two, scenes.size(), run_options());
+                           if (drape::sharing_obstacle(two.front()->model)) return;
+                           const auto check = two.front()->model.closed_loop() ? check_lane_room : check_room;
+                           check(given.parts_->device, two, scenes.size(), run_options());
                        })),
           obstacle(obstacle_of(members)) {
         const bool acts = wanted.controls.wind || wanted.controls.pins || wanted.controls.colliders;
         if (acts && members.front()->model.closed_loop())
             throw Error(
                 "method auto does frames again, with those before them, and cannot be given actions: name a method");
-        const auto make_runs = obstacle ? run_apart : run_together;
+        const auto make_runs = obstacle                                ? run_apart
+                               : members.front()->model.closed_loop() ? run_in_lanes
+                                                                      : run_together;
         runs = make_runs(given.parts_->device, members, run_options());
     }
 

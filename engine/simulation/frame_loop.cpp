@@ -40,6 +40,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
         if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
             self_contact_->last_crossed = 0;
     }
+    if (options_.lane) return;
     build_graphs();
     if (options_.next_elsewhere) return;
     allocate_and_record();
@@ -229,6 +230,7 @@ FrameLoop::Frame FrameLoop::build(FrameKind kind, const SimulationModel& run) {
 }
 
 void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output) {
+    if (options_.lane) return submit_in_lane(slot, frame, kind, output);
     // The initial frame simulates nothing, but its statistics need to know where the colliders are.
     const double fps = model_.scene.time.fps;
     const FrameContents& has = contents(kind);
@@ -263,8 +265,8 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
 
 void FrameLoop::restore_kept() {
     const std::uint32_t slot = next_slot_;
-    slots_.submit(slot, {commands(AttemptStep::restore, slot)});
-    slots_.wait(slot);
+    submit_parts(slot, {.parts = {{LanePart::Kind::attempt, StateSet::run, AttemptStep::restore}}});
+    wait(slot);
 }
 
 void FrameLoop::begin_anew() {
@@ -287,7 +289,7 @@ void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
 }
 
 void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
-    slots_.wait(slot);
+    wait(slot);
     if (!in_flight_[slot]) return;
     const InFlight done = std::move(*in_flight_[slot]);
     in_flight_[slot].reset();
@@ -299,23 +301,24 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         result.effort = done.judged->effort;
         result.timings = done.judged->timings;
     }
-    for (graph::Timing& timing : frames_[static_cast<std::size_t>(done.kind)].recorded->timings(slot))
-        result.timings.push_back({std::move(timing.name), timing.milliseconds});
+    if (const Frame& own = frames_[static_cast<std::size_t>(done.kind)]; own.recorded)
+        for (graph::Timing& timing : own.recorded->timings(slot))
+            result.timings.push_back({std::move(timing.name), timing.milliseconds});
     if (contents(done.kind).simulates && model_.has_companions()) {
-        position_error_.saw(done.frame, done.substeps, solver_.differences(*pool_, slot), done.further);
+        position_error_.saw(done.frame, done.substeps, differences_in(slot), done.further);
         note_motion(position_error_, sensitivity_, result.effort);
     }
-    if (contents(done.kind).simulates) note_self_contact(done.frame, solver_.self_record(*pool_, slot));
+    if (contents(done.kind).simulates) note_self_contact(done.frame, self_record_in(slot));
     if (done.output && options_.draw) {
         const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
         raster_->finish(bytes.first(raster_->readback_byte_count()));
         result.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
     }
-    if (done.output && options_.positions) result.positions = solver_.readback(*pool_, slot, "position");
+    if (done.output && options_.positions) result.positions = array_in(slot, "position");
     if (done.output && options_.velocities)
         result.velocities = velocities(slot, result.effort.asleep ? 0 : done.substeps);
-    if (done.output && options_.normals) result.normals = solver_.readback(*pool_, slot, "normal");
-    if (!done.judged && needs(done.kind).statistics) result.statistics = solver_.statistics(*pool_, slot, done.frame);
+    if (done.output && options_.normals) result.normals = array_in(slot, "normal");
+    if (!done.judged && needs(done.kind).statistics) result.statistics = statistics_in(slot, done.frame, model_);
     if (done.output) return finished(result);
     // A closed loop's frame may still be done again.
     if (options_.on_passed_over && (!control_ || done.frame == 0)) options_.on_passed_over(result);
@@ -323,8 +326,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
 
 /// Returns what the statistics take for the velocity (end_velocity.h), over the substep; 0 where there was none.
 std::vector<std::span<const float>> FrameLoop::velocities(std::uint32_t slot, std::uint32_t substeps) {
-    const auto moved = solver_.readback(*pool_, slot, "displacement"),
-               excess = solver_.readback(*pool_, slot, "excess displacement");
+    const auto moved = array_in(slot, "displacement"), excess = array_in(slot, "excess displacement");
     const double substeps_per_second = model_.scene.time.fps * substeps;
     velocities_.resize(moved.size());
     for (std::size_t cloth = 0; cloth < moved.size(); ++cloth) {

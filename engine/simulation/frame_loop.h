@@ -24,6 +24,7 @@
 #include "graph/executor.h"
 #include "picture/cloth_raster.h"
 #include "picture/frame_copy.h"
+#include "simulation/loop_lane.h"
 
 namespace drape {
 
@@ -50,6 +51,9 @@ struct FrameLoopOptions : PictureOptions {
     std::function<void(const FinishedFrame&)> on_passed_over;
     /// Frames come from here, in order from 0 on, and nothing is simulated.
     std::function<FinishedFrame()> next_elsewhere;
+    /// The loop's device; null: it has one of its own. A loop in a lane draws nothing, and its cloths meet nothing of
+    /// cloth and stay whole.
+    LoopLane* lane = nullptr;
     std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };
@@ -99,7 +103,7 @@ class FrameLoop {
     std::uint32_t next_frame() const { return next_frame_; }
     /// Returns whether every frame that was simulated was handed out, or will have been once `stop` has ended the loop.
     bool can_save() const {
-        if (!pool_) return false;
+        if (!pool_ && !options_.lane) return false;
         // Frame 0 is there before any is simulated.
         return in_segment_ || (withheld_.empty() && (!control_ || std::max(next_frame_, 1u) >= simulated_));
     }
@@ -144,8 +148,17 @@ class FrameLoop {
     /// A closed loop's frame at one number of substeps.
     struct Rung {
         std::unique_ptr<SimulationModel> model;
-        Frame frame;
+        Frame frame;  ///< nothing in a lane
     };
+    /// What a slot's submits go through, on the loop's own device or in its lane (loop_device.cpp).
+    void submit_parts(std::uint32_t slot, const LaneWork& work);
+    void wait(std::uint32_t slot);
+    std::vector<ClothStatistics> statistics_in(std::uint32_t slot, std::uint32_t frame,
+                                               const SimulationModel& run) const;
+    std::vector<double> differences_in(std::uint32_t slot) const;
+    glsl::SelfRecord self_record_in(std::uint32_t slot) const;
+    std::vector<std::span<const float>> array_in(std::uint32_t slot, std::string_view what) const;
+    SimulationState device_state() const;
     using Finished = std::function<void(const FinishedFrame&)>;
 
     /// Returns the kinds that this scene and these options ever need.
@@ -176,6 +189,7 @@ class FrameLoop {
     std::unique_ptr<graph::RecordedPlan> recording(const Frame& frame) const;
     static FrameKind kind_of(std::uint32_t frame, bool wanted, bool cutting);
     void submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
+    void submit_in_lane(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output);
     /// Adds a frame's records to the reports. Throws VulkanError where a list of pairs had no room.
     void note_self_contact(std::uint32_t frame, const glsl::SelfRecord& record);
     /// Does a named method's frame again with longer lists of contact where they were too short.
@@ -213,6 +227,7 @@ class FrameLoop {
     /// Calls `visit` with the frame of each of them.
     void for_each_attempt(const std::function<void(Frame&)>& visit);
     Rung& rung(std::uint32_t substeps, StateSet set = StateSet::run);
+    VkCommandBuffer commands_of(const LanePart& part, std::uint32_t slot);
     struct Asked {
         std::uint32_t last;
         const std::function<bool(std::uint32_t)>& wanted;

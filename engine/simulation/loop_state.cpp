@@ -70,7 +70,7 @@ bool FrameLoop::take_host_state(std::span<const std::byte> bytes) {
 
 SimulationState FrameLoop::save() const {
     SimulationState state;
-    for (auto& [name, bytes] : solver_.download_state(*pool_))
+    for (auto& [name, bytes] : device_state())
         state[std::string(field_prefix) + name] = std::move(bytes);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const CutTopology& topology = solver_.topologies()[cloth];
@@ -117,11 +117,12 @@ void FrameLoop::restore(const SimulationState& state) {
     SimulationState fields;
     for (const auto& [name, bytes] : state)
         if (name.starts_with(field_prefix)) fields[name.substr(field_prefix.size())] = bytes;
-    for (const auto& [name, bytes] : solver_.download_state(*pool_)) {
+    for (const auto& [name, bytes] : device_state()) {
         const auto found = fields.find(name);
         if (found == fields.end() || !solver_.takes(name, bytes, found->second))
             refuse(fmt::format("field '{}'", name));
     }
+    if (options_.lane) return options_.lane->upload(fields);
     rebuild_resources(fields);
 }
 

@@ -51,12 +51,18 @@ struct MemberRunOptions {
     Kernels kernels;
 };
 
-/// Throws DeviceError, telling how many fit, where so many members like these two have no room on the device together.
+/// Throws DeviceError, telling how many fit, where members of so many bytes each have no room on the device together.
+void check_bytes(const vulkan::Device& device, std::uint64_t bytes_each, std::size_t count);
+/// Do so for as many members as are like these two: that share dispatches, and that have lanes.
+void check_lane_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options);
 void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options);
 /// Members share dispatches.
 std::unique_ptr<MemberRuns> run_together(const vulkan::Device& device, Members& members,
                                          const MemberRunOptions& options);
-/// Each has a frame loop.
+/// Each has a frame loop, all of which ask one device for what they do and go along where that is the same.
+std::unique_ptr<MemberRuns> run_in_lanes(const vulkan::Device& device, Members& members,
+                                         const MemberRunOptions& options);
+/// Each has a frame loop with a device of its own.
 std::unique_ptr<MemberRuns> run_apart(const vulkan::Device& device, Members& members, const MemberRunOptions& options);
 
 }  // namespace drape

@@ -322,7 +322,10 @@ class MembersTogether : public MemberRuns {
 }  // namespace
 
 void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options) {
-    const std::uint64_t each = MembersTogether(device, two, two.size(), options).bytes() / two.size();
+    check_bytes(device, MembersTogether(device, two, two.size(), options).bytes() / two.size(), count);
+}
+
+void check_bytes(const vulkan::Device& device, std::uint64_t each, std::size_t count) {
     const std::uint64_t room = device.budget().limit() - device.budget().used();
     if (each * count > room)
         throw vulkan::VulkanError(fmt::format("{} members need {} MiB, and the device has {} MiB left: {} fit", count,

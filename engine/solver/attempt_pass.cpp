@@ -2,6 +2,7 @@
 
 #include "cloth/frame_judgement.h"
 #include "cloth/sensitivity.h"
+#include "solver/cloth_constants.h"
 #include "solver/compute_pass.h"
 #include "vulkan/api.h"
 
@@ -25,7 +26,23 @@ struct Copy {
     std::uint32_t width, height;
 };
 
-void add_copies(graph::Graph& graph, const ClothState& state, const char* name, std::vector<Copy>& copies) {
+/// Copies images of cloths together, of those that are present.
+void add_copies_of_present(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const char* name,
+                           std::vector<Copy>& copies) {
+    for (Copy& copy : copies) {
+        const VkFormat format = declaration_of(graph, copy.from).format;
+        const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
+            "copy_state.comp", {{"scalar", format == VK_FORMAT_R32_SFLOAT}, {"integer", format == VK_FORMAT_R32_UINT}}));
+        const std::uint32_t height = copy.height / state.count();
+        const glsl::GridPush push{{static_cast<int>(copy.width), static_cast<int>(height)}};
+        add_compute_pass(graph, state.pass_name(name, "judge"), pipeline, push, {copy.width, height, state.count()},
+                         {&state, nullptr, {}, {{"source", &copy.from}, {"target", &copy.to}}});
+    }
+}
+
+void add_copies(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const char* name,
+                std::vector<Copy>& copies) {
+    if (state.present.valid()) return add_copies_of_present(graph, pipelines, state, name, copies);
     // The execute function is made before set-up runs, so it holds the place where the handles will be.
     const auto recorded = std::make_shared<std::vector<Copy>>();
     graph.add_pass(
@@ -52,7 +69,7 @@ Copy copy_between(const graph::Graph& graph, graph::Handle from, graph::Handle t
     return {from, to, image.width, image.height};
 }
 
-void add_state_copies(graph::Graph& graph, ClothState& state, bool back) {
+void add_state_copies(graph::Graph& graph, Pipelines& pipelines, ClothState& state, bool back) {
     std::vector<Copy> copies;
     std::vector<Field> fields;
     for (const FieldRow& row : cloth_fields()) {
@@ -61,12 +78,12 @@ void add_state_copies(graph::Graph& graph, ClothState& state, bool back) {
         copies.push_back(back ? copy_between(graph, kept, live) : copy_between(graph, live, kept));
         fields.push_back(row.field);
     }
-    add_copies(graph, state, back ? "restore" : "keep", copies);
+    add_copies(graph, pipelines, state, back ? "restore" : "keep", copies);
     if (!back) return;
     for (std::size_t i = 0; i < fields.size(); ++i) state[fields[i]] = copies[i].to;
 }
 
-void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
+void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SimulationModel& run) {
     std::vector<Copy> copies;
     for (const FieldRow& row : cloth_fields()) {
         if (row.life != FieldLife::state || !state[row.field].valid()) continue;
@@ -74,21 +91,24 @@ void add_disturb(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
         copies.push_back(copy_between(graph, graph.image(in_set(live, StateSet::companion)),
                                       graph.image(in_set(live, StateSet::disturbed))));
     }
-    add_copies(graph, state, "begin disturbed run", copies);
+    add_copies(graph, pipelines, state, "begin disturbed run", copies);
     static_assert(static_cast<int>(Field::position) == 0);
     graph::Handle from = copies.front().from, to = copies.front().to;
-    const glsl::DisturbPush push{state.model->grid.size(), disturbance(*state.model)};
-    add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp"), push,
-                     {state.model->grid.columns(), state.model->grid.rows(), state.count()},
-                     {&state, nullptr, {}, {{"position", &from}, {"disturbed_position", &to}}});
+    const std::vector<graph::PushConstants> each = pushes_of(state, run, [](const ClothModel& cloth) {
+        return graph::PushConstants(glsl::DisturbPush{cloth.grid.size(), disturbance(cloth), 0});
+    });
+    graph::Handle own = own_constants(graph, state, "disturb.comp", "disturb", each);
+    add_compute_pass(graph, state.pass_name("disturb", "judge"), pipelines.get("disturb.comp", own.valid()),
+                     each.front(), {state.model->grid.columns(), state.model->grid.rows(), state.count()},
+                     {&state, nullptr, {}, {{"position", &from}, {"disturbed_position", &to}, {"constants", &own}}});
 }
 
 constexpr const char* coarse_run = " of the coarse run";
 
-void add_remember(graph::Graph& graph, ClothState& state) {
+void add_remember(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const graph::Handle position = state[Field::position];
     std::vector<Copy> copies{copy_between(graph, position, copy_of(graph, state, Field::position, coarse_run))};
-    add_copies(graph, state, "remember", copies);
+    add_copies(graph, pipelines, state, "remember", copies);
 }
 
 void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
@@ -152,16 +172,16 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptSt
 std::string difference_readback_name(const std::string& state) { return state + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step, std::size_t first_change) {
+                 const SimulationModel& run, AttemptStep step, std::size_t first_change) {
     switch (step) {
         case AttemptStep::keep:
-            return add_state_copies(graph, state, false);
+            return add_state_copies(graph, pipelines, state, false);
         case AttemptStep::restore:
-            return add_state_copies(graph, state, true);
+            return add_state_copies(graph, pipelines, state, true);
         case AttemptStep::change_substep:
             return add_change_substep(graph, pipelines, state, inputs, first_change);
         case AttemptStep::remember:
-            return add_remember(graph, state);
+            return add_remember(graph, pipelines, state);
         case AttemptStep::compare:
             return add_compare(graph, pipelines, state, state[Field::position],
                                copy_of(graph, state, Field::position, coarse_run));
@@ -172,7 +192,7 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
             return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
                                position_in(graph, state, StateSet::coarser));
         case AttemptStep::disturb:
-            return add_disturb(graph, pipelines, state);
+            return add_disturb(graph, pipelines, state, run);
         case AttemptStep::compare_disturbed:
             return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
                                position_in(graph, state, StateSet::disturbed));

@@ -27,6 +27,6 @@ std::string difference_readback_name(const std::string& state);
 void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptStep step);
 /// `first_change`: place in `attempt` of the change of the state's first cloth; the others' follow.
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 AttemptStep step, std::size_t first_change);
+                 const SimulationModel& run, AttemptStep step, std::size_t first_change);
 
 }  // namespace drape

@@ -159,12 +159,12 @@ std::vector<std::byte> field_of(const ClothBytes& state, Field field) {
 }
 
 std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& pool,
-                                                     std::span<const std::size_t> wanted) const {
+                                                     std::span<const std::size_t> wanted, StateSet of_set) const {
     std::vector<ClothBytes> states(wanted.size());
     for_state_images(
         pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
             const auto is_in_it = [&](std::size_t cloth) { return std::ranges::find(cloths, cloth) != cloths.end(); };
-            if (set != StateSet::run || std::ranges::none_of(wanted, is_in_it)) return;
+            if (set != of_set || std::ranges::none_of(wanted, is_in_it)) return;
             std::vector<std::byte> bytes(std::size_t{image.description().width} * image.description().height *
                                          row.element.size);
             vulkan::download(pool.device(), image, bytes);
@@ -179,11 +179,11 @@ std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& 
 }
 
 void ClothSolver::upload_cloths(const graph::ResourcePool& pool,
-                                const std::map<std::size_t, const ClothBytes*>& states) const {
+                                const std::map<std::size_t, const ClothBytes*>& states, StateSet of_set) const {
     std::vector<vulkan::RowsOfImage> uploads;
     for_state_images(
         pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
-            if (set != StateSet::run) return;
+            if (set != of_set) return;
             const auto height = static_cast<std::uint32_t>(image.description().height / cloths.size());
             const std::size_t size = std::size_t{image.description().width} * height * row.element.size;
             for (const std::size_t cloth : cloths) {

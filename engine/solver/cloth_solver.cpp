@@ -106,12 +106,14 @@ constexpr const char* mesh_fields_name = "mesh fields";
 
 }  // namespace
 
-ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels)
+ClothSolver::ClothSolver(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels,
+                         bool in_part)
     : model_(model),
       run_(&model),
+      in_part_(in_part),
       kernels_(possible_kernels(device, model, kernels)),
       verdicts_(kernel_verdicts(device, model, kernels)),
-      pipelines_(device),
+      pipelines_(device, in_part),
       most_list_bytes_(std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.max_buffer_size())) {
     if (model.self_contact) contact_.capacity = limited(model.self_contact->capacity, most_list_bytes_);
     for (const ClothModel& cloth : model.cloths) {
@@ -211,6 +213,7 @@ void ClothSolver::declare_together(graph::Graph& graph, Together& together, cons
         together.state[row.field] = whole;
     }
     declare_lists(graph, together, needs);
+    if (in_part_) declare_present(graph, together);
 }
 
 template <class Add>
@@ -329,7 +332,7 @@ std::vector<std::span<const float>> ClothSolver::readback(const graph::ResourceP
 void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
     std::size_t first = 0;
     for_each_dispatch([&](ClothState& state) {
-        drape::add_attempt(graph, pipelines_, state, inputs_, step, first);
+        drape::add_attempt(graph, pipelines_, state, inputs_, *run_, step, first);
         first += state.cloths.size();
     });
     if (run_->self_contact) add_contact_attempt(graph, contact_, step);

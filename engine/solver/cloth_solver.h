@@ -33,8 +33,11 @@ class ClothSolver {
   public:
     /// Makes no pipeline yet; the functions that add passes make those that the graph needs. Throws VulkanError when
     /// the device has not what a kernel that is asked for needs.
+    /// `in_part`: passes are taken for those cloths that `write_present` names; then all must lie together.
     ClothSolver(const vulkan::Device& device, const SimulationModel& model,
-                const Kernels& kernels = Kernels::automatic());
+                const Kernels& kernels = Kernels::automatic(), bool in_part = false);
+    /// Returns whether every cloth is simulated together with another.
+    bool all_together() const;
     /// The kernels that its steps may use.
     const Kernels& kernels() const { return kernels_; }
 
@@ -87,10 +90,12 @@ class ClothSolver {
     void upload_state(const graph::ResourcePool& pool,
                       const std::map<std::string, std::vector<std::byte>>& state) const;
     /// Fetches the state of some cloths.
-    std::vector<ClothBytes> download_cloths(const graph::ResourcePool& pool, std::span<const std::size_t> cloths) const;
+    std::vector<ClothBytes> download_cloths(const graph::ResourcePool& pool, std::span<const std::size_t> cloths,
+                                            StateSet set = StateSet::run) const;
     /// Uploads the state of some cloths and leaves the others as they are; null: as the cloth starts. Throws
     /// std::invalid_argument where one is not of such a cloth, before anything is uploaded.
-    void upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states) const;
+    void upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states,
+                       StateSet set = StateSet::run) const;
     /// Fetches what pairs bore, by member, as a run of each of them has it (cloth/contact_state.h).
     std::vector<std::vector<std::byte>> download_borne(const graph::ResourcePool& pool) const;
     /// Uploads it. Returns false, and uploads nothing, where the list has no room for it until the next `declare`.
@@ -114,6 +119,9 @@ class ClothSolver {
                       std::uint32_t substeps) const;
     /// Writes the constants that each of the cloths together has its own of, which frames leave as they are.
     void write_constants(const graph::ResourcePool& pool, std::uint32_t slot, std::uint32_t substeps) const;
+
+    /// Writes for which cloths the passes of the next submit are taken.
+    void write_present(const graph::ResourcePool& pool, std::uint32_t slot, const std::vector<bool>& cloths) const;
 
     /// Writes how an attempt changes the length of each cloth's substeps.
     void write_changes(const graph::ResourcePool& pool, std::uint32_t slot,
@@ -160,9 +168,12 @@ class ClothSolver {
         bool unlike;
         ClothState state;
         std::map<std::uint32_t, std::shared_ptr<ClothConstants>> constants;  ///< by substeps per frame
+        std::shared_ptr<std::vector<glsl::uvec4>> sizes_of_present;          ///< of all graphs' passes
     };
     void declare_cloth(graph::Graph& graph, std::size_t index, const FrameNeeds& needs);
     void declare_together(graph::Graph& graph, Together& together, const FrameNeeds& needs);
+    /// Declares what says which of them are present (cloths_together.cpp).
+    void declare_present(graph::Graph& graph, Together& together) const;
     /// Declares the lists of cloths together, joined (cloths_together.cpp).
     void declare_lists(graph::Graph& graph, Together& together, const FrameNeeds& needs);
     void upload_together(const graph::ResourcePool& pool) const;
@@ -201,6 +212,7 @@ class ClothSolver {
     const SimulationModel& model_;
     const SimulationModel* run_;    ///< the run of the graph that is being built
     StateSet set_ = StateSet::run;  ///< the set that it works on
+    bool in_part_;
     Kernels kernels_;
     std::vector<KernelVerdict> verdicts_;
     std::vector<CutTopology> topologies_;

@@ -7,6 +7,7 @@
 
 #include "cloth/together.h"
 #include "solver/cloth_solver.h"
+#include "solver/compute_pass.h"
 #include "solver/kernel_choice.h"
 
 namespace drape {
@@ -18,6 +19,9 @@ namespace {
 /// Lists that cloths together have one after the other in one buffer.
 constexpr Field joined_lists[] = {Field::nested_boxes, Field::tethers, Field::skin, Field::pinned_particles,
                                   Field::pin_motions};
+
+std::string present_name(const std::string& state) { return state + "/present"; }
+std::string present_sizes_name(const std::string& state) { return state + "/sizes of present"; }
 
 /// Returns a cloth's pinned particles with texel and motion counted over all cloths.
 std::vector<glsl::PinnedParticle> placed_pins(const ClothModel& cloth, int first_row, int first_pin) {
@@ -111,6 +115,42 @@ void ClothSolver::declare_lists(graph::Graph& graph, Together& together, const F
         whole[field] = graph.buffer({resource_name(whole, row), count * row.element.size,
                                      row.life == FieldLife::constant ? Lifetime::constant : Lifetime::host_input,
                                      &row.element, row.view == FieldView::texel_buffer});
+    }
+}
+
+bool ClothSolver::all_together() const {
+    return std::ranges::none_of(together_of_, [&](std::size_t list) { return list == together_.size(); });
+}
+
+void ClothSolver::declare_present(graph::Graph& graph, Together& together) const {
+    ClothState& whole = together.state;
+    if (!together.sizes_of_present) together.sizes_of_present = std::make_shared<std::vector<glsl::uvec4>>();
+    whole.sizes_of_present = together.sizes_of_present;
+    whole.present =
+        graph.buffer<glsl::uint>(present_name(whole.name), 2 * together.cloths.size(), Lifetime::host_input);
+    whole.present_sizes =
+        graph.buffer<glsl::uvec4>(present_sizes_name(whole.name), most_present_sizes, Lifetime::host_input);
+}
+
+void ClothSolver::write_present(const graph::ResourcePool& pool, std::uint32_t slot,
+                                const std::vector<bool>& cloths) const {
+    for (const Together& together : together_) {
+        const std::size_t count = together.cloths.size();
+        std::vector<glsl::uint> present(2 * count);
+        glsl::uint layers = 0;
+        for (std::size_t place = 0; place < count; ++place)
+            if (cloths[together.cloths[place]]) {
+                present[layers++] = static_cast<glsl::uint>(place);
+                present[count + place] = 1;
+            }
+        std::vector<glsl::uvec4> sizes = *together.sizes_of_present;
+        for (glsl::uvec4& size : sizes) size.z = layers;
+        const auto put = [&](const std::string& name, const auto& values) {
+            if (pool.has(name))
+                std::memcpy(pool.buffer(name, slot).mapped().data(), values.data(), std::span(values).size_bytes());
+        };
+        put(present_name(together.state.name), present);
+        put(present_sizes_name(together.state.name), sizes);
     }
 }
 

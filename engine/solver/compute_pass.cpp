@@ -1,6 +1,7 @@
 #include "solver/compute_pass.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace drape {
@@ -22,6 +23,16 @@ void declare(graph::PassSetup& setup, const vulkan::ComputePipeline& pipeline, P
     }
 }
 
+/// Over cloths together of which only some are present, a dispatch has as many layers as the host says.
+DispatchSize of_present(const ClothState* cloth, const vulkan::ComputePipeline& pipeline, DispatchSize size) {
+    if (!cloth || !cloth->present.valid() || size.depth != cloth->count()) return size;
+    const auto [x, y, z] = pipeline.local_size();
+    size.sizes = cloth->present_sizes;
+    size.slot = size_slot(*cloth->sizes_of_present, {(size.width + x - 1) / x, (size.height + y - 1) / y, 0, 0},
+                          most_present_sizes);
+    return size;
+}
+
 }  // namespace
 
 std::string_view resource_of(std::string_view variable) {
@@ -38,6 +49,7 @@ graph::Handle& PassResources::find(std::string_view variable, bool written) {
         if (const auto field = field_called(name)) return (*cloth)[*field];
     if (contact)
         if (const auto field = contact_field_called(name)) return (*contact)[*field];
+    if (cloth && name == "present") return cloth->present;
     if (name == "wind") return inputs.wind;
     if (name == "stiffness") return inputs.stiffness;
     if (name == "attempt") return inputs.attempt;
@@ -50,8 +62,18 @@ graph::Handle& PassResources::find(std::string_view variable, bool written) {
     throw std::logic_error("a shader names '" + name + "', which its pass has not");
 }
 
+std::size_t size_slot(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size, std::size_t most) {
+    const auto same = [&](const glsl::uvec4& other) { return other.x == size.x && other.y == size.y; };
+    const auto found = std::ranges::find_if(sizes, same);
+    if (found != sizes.end()) return static_cast<std::size_t>(found - sizes.begin());
+    if (sizes.size() == most) throw std::logic_error("too many sizes of dispatches");
+    sizes.push_back(size);
+    return sizes.size() - 1;
+}
+
 void add_compute_pass(graph::Graph& graph, const graph::PassName& name, const vulkan::ComputePipeline& pipeline,
-                      const graph::PushConstants& push, const DispatchSize& size, PassResources resources) {
+                      const graph::PushConstants& push, const DispatchSize& asked, PassResources resources) {
+    const DispatchSize size = of_present(resources.cloth, pipeline, asked);
     graph.add_pass(
         name,
         [&](graph::PassSetup& setup) {

@@ -19,6 +19,12 @@ struct DispatchSize {
     std::size_t slot = 0;  ///< of `sizes`, a uvec4 each
 };
 
+/// Returns the place of a size in a list, at which it is put when it is new. Throws std::logic_error when more than
+/// `most` come.
+std::size_t size_slot(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size, std::size_t most);
+/// A state's passes have at most so many sizes.
+inline constexpr std::size_t most_present_sizes = 256;
+
 /// Finds the resources that a shader names: a field of a cloth by its row's name, then one of contact, then a host
 /// input of the scene; those of `own` first.
 struct PassResources {

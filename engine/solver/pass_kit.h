@@ -43,6 +43,11 @@ struct ClothState {
     /// Host inputs with constants of each cloth (solver/cloth_constants.h) will hold these; the passes add them.
     std::shared_ptr<ClothConstants> constants;
     std::map<std::string, graph::Handle> constant_buffers;
+    /// Host input that says which of the cloths together take a step (shaders/include/present.h); invalid: all do.
+    graph::Handle present;
+    /// Host input of sizes of dispatches over them, of which the passes add the first two numbers.
+    graph::Handle present_sizes;
+    std::shared_ptr<std::vector<glsl::uvec4>> sizes_of_present;
     /// Whether spring shares and cells are images.
     bool masked() const { return topology->masked(); }
     /// Whether springs have lengths of their own at rest (shaders/include/rest_length.h).

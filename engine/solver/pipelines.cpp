@@ -24,7 +24,9 @@ const vulkan::ComputePipeline& Pipelines::get(const std::string& module,
                                               bool own_constants) {
     std::vector<vulkan::SpecializationConstant> constants;
     for (const auto& [name, id] : vulkan::module_interface(module).constants)
-        constants.push_back({name, name == "has_constants" ? std::uint32_t{own_constants} : value(name)});
+        constants.push_back({name, name == "has_constants" ? std::uint32_t{own_constants}
+                                   : name == "has_present" ? std::uint32_t{present_}
+                                                           : value(name)});
     const vulkan::ComputePipeline& pipeline = device_.compute_pipeline(module, constants);
     asked_for_.insert(&pipeline);
     return pipeline;

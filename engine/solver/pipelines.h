@@ -20,13 +20,14 @@ using ShaderVariants = std::vector<std::pair<std::string_view, bool>>;
 
 class Pipelines {
   public:
-    explicit Pipelines(const vulkan::Device& device) : device_(device) {}
+    /// `present`: passes over cloths together are told which of them are (shaders/include/present.h).
+    explicit Pipelines(const vulkan::Device& device, bool present = false) : device_(device), present_(present) {}
     /// The pipeline of a module (spirv/), specialised by the values of exactly those constants that the module has;
     /// `own_constants` is that of `has_constants` (solver/cloth_constants.h).
     const vulkan::ComputePipeline& get(const std::string& module,
                                        const std::function<std::uint32_t(std::string_view constant)>& value,
                                        bool own_constants = false);
-    /// The pipeline of a module that has no constants but that.
+    /// The pipeline of a module that has no constants but that and `has_present`.
     const vulkan::ComputePipeline& get(const std::string& module, bool own_constants = false);
     /// How many different pipelines were asked for here.
     std::size_t size() const { return asked_for_.size(); }
@@ -52,6 +53,7 @@ class Pipelines {
   private:
     bool is_cpu() const { return device_.info().type == "cpu"; }
     const vulkan::Device& device_;
+    bool present_;
     std::set<const vulkan::ComputePipeline*> asked_for_;
 };
 

@@ -45,12 +45,12 @@ std::uint32_t chunk_count(std::uint32_t partials) {
 }
 
 /// A pass that joins `count` records of each cloth to one of each of their chunks.
-graph::Handle add_sum(graph::Graph& graph, Pipelines& pipelines, const ClothState& state, const char* name,
+graph::Handle add_sum(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const char* name,
                       graph::Handle records, std::uint32_t count, graph::Handle result) {
     constexpr auto width = static_cast<std::uint32_t>(glsl::workgroup_width);
     add_compute_pass(graph, state.pass_name(name, "statistics"), pipelines.get("statistics_sum.comp"),
                      glsl::StatisticsSumPush{static_cast<int>(count)}, {chunk_count(count) * width, 1, state.count()},
-                     {.own = {{"partials", &records}, {"result", &result}}});
+                     {.cloth = &state, .own = {{"partials", &records}, {"result", &result}}});
     return result;
 }
 

@@ -53,24 +53,14 @@ graph::PassName name_of(const StepRow& row, const StepPlace& place) {
     return {fmt::format("{} (substep {})", label, place.step.substep), "simulate", label};
 }
 
-/// The place of a size in the list that the device chooses from, at which it is put when it is new.
-std::size_t slot_of(std::vector<glsl::uvec4>& sizes, glsl::uvec4 size) {
-    const auto same = [&](const glsl::uvec4& other) { return other.x == size.x && other.y == size.y; };
-    const auto found = std::ranges::find_if(sizes, same);
-    if (found != sizes.end()) return static_cast<std::size_t>(found - sizes.begin());
-    if (sizes.size() == glsl::iteration_size_count)
-        throw std::logic_error("too many sizes of dispatches in an iteration");
-    sizes.push_back(size);
-    return sizes.size() - 1;
-}
-
 /// In iterations that the device may skip, the dispatch has the size that the decision before it wrote.
 DispatchSize size_of(const KernelRow& kernel, const StepPlace& place, const vulkan::ComputePipeline& pipeline) {
     DispatchSize size = kernel.size(place, pipeline);
     if (!place.step.conditional) return size;
     const auto [x, y, z] = pipeline.local_size();
     size.sizes = (*place.cloth)[Field::iterations];
-    size.slot = slot_of(*place.cloth->iteration_sizes, {(size.width + x - 1) / x, (size.height + y - 1) / y, 1, 0});
+    size.slot = size_slot(*place.cloth->iteration_sizes, {(size.width + x - 1) / x, (size.height + y - 1) / y, 1, 0},
+                          glsl::iteration_size_count);
     return size;
 }
 
@@ -112,7 +102,7 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const StepPlace place{step, cloth, contact, model, pipelines};
     const std::string module = module_of(*kernel, place);
     const std::vector<graph::PushConstants> each = pushes_of_each(row, place);
-    graph::Handle own = each.empty() ? graph::Handle() : own_constants(graph, *cloth, module, row.label(place), each);
+    graph::Handle own = each.empty() ? graph::Handle() : own_constants(graph, *cloth, module, module, each);
     const auto value = [&](std::string_view name) { return step_constant(place, name); };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     const Turn turned = row.turn ? row.turn(place) : Turn::nothing;

@@ -74,11 +74,12 @@ std::string collider_edges_label(Place p) { return p.step.after_edges ? "collide
 graph::PushConstants wind_push(Place p) {
     glsl::WindPush push = p.cloth->model->wind;
     push.substep = static_cast<int>(p.step.substep);
-    push.first = static_cast<int>(p.cloth->model->member * p.model.most_substeps());
+    push.first = static_cast<int>(p.cloth->model->member * p.model.scene.solver.substeps);
     return push;
 }
 glsl::PinPush pins_of(Place p) {
-    return {static_cast<int>(p.cloth->pinned_count), static_cast<int>(p.step.substep * p.cloth->pin_count)};
+    return {static_cast<int>(p.cloth->pinned_count), static_cast<int>(p.step.substep * p.cloth->pin_count),
+            static_cast<int>(p.cloth->model->grid.rows())};
 }
 graph::PushConstants pin_push(Place p) { return pins_of(p); }
 graph::PushConstants release_push(Place p) {

@@ -25,7 +25,7 @@ struct LineParticle {
 };
 
 Line read_line(int index) {
-    bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    bool second_order = imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u;
     float share = border_share(line_start(index, push.step), push.step, push.grid);
     float compliance = second_order ? push.compliance_bdf2 : push.compliance;
     float followed = second_order ? push.followed_bdf2 : push.followed;

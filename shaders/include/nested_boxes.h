@@ -116,10 +116,10 @@ void sweep_order(NestedBox box, int order, bool second_order) {
 
 void main() {
     // Each cloth of the dispatch has a table of its own, of the same length.
-    int first = nested_boxes.length() / int(gl_NumWorkGroups.z) * int(gl_WorkGroupID.z);
+    int first = nested_boxes.length() / cloths_together() * int(cloth_place());
     ivec2 pin = nested_boxes[first + given.first_pin + int(gl_WorkGroupID.x)].xy;
     if (LOAD(position, pin).w != 0.0f) return;
-    bool second_order = imageLoad(line_control, ivec2(control_order, gl_WorkGroupID.z)).x == 2u;
+    bool second_order = imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u;
     int block = 0;
     do {
         NestedBox box = nested_box(pin, nested_boxes[block].xy, push.grid);

@@ -1,3 +1,4 @@
+#include "include/present.h"
 // Declares a compute shader's push constants as `push`, a copy of them made before anything branches. On the default
 // device the constants that a branch within a loop reads are loaded anew in every round, lane by lane.
 #define PUSH_CONSTANTS(type)                            \
@@ -14,4 +15,4 @@
         if (has_constants) own = constants[cloth];                                         \
         return own;                                                                        \
     }                                                                                      \
-    type push = constants_of(gl_WorkGroupID.z);
+    type push = constants_of(cloth_place());

@@ -27,6 +27,7 @@ struct ChangeSubstepPush {
 struct DisturbPush {
     ivec2 grid;
     float amplitude;  // m, along each axis
+    float unused;
 };
 
 /// Difference of two runs of the same frame, summed over the particles that are not held.

@@ -113,6 +113,7 @@ struct CollisionPush {
 struct PinPush {
     int particle_count;
     int motion_first;  // first motion of this substep
+    int rows;          // of a cloth
 };
 
 struct ReleasePush {

@@ -1,0 +1,28 @@
+// Cloths together (engine/cloth/together.h) lie below each other in the images of their state, each at its place. A
+// workgroup's z says whose it is; where only some of them take a step, `present` says who those are: by z their places,
+// then by place whether it is one of them.
+#ifndef DRAPE_PRESENT_H
+#define DRAPE_PRESENT_H
+
+layout(constant_id = 31) const bool has_present = false;
+layout(set = 0, binding = 31, std430) readonly buffer Present { uint present[]; };
+
+uint cloth_place() {
+    uint place = gl_WorkGroupID.z;
+    if (has_present) place = present[gl_WorkGroupID.z];
+    return place;
+}
+/// How many lie together, present or not.
+int cloths_together() {
+    int count = int(gl_NumWorkGroups.z);
+    if (has_present) count = present.length() / 2;
+    return count;
+}
+/// Returns whether the cloth of a place takes the step, in passes over lists that are of all cloths.
+bool is_present(uint place) {
+    bool is = true;
+    if (has_present) is = present[present.length() / 2 + int(place)] != 0u;
+    return is;
+}
+
+#endif
