@@ -1,14 +1,20 @@
 // This pass takes the statistics of a cloth, with an invocation and a record per statistics_rows particles of a column.
 // A particle answers for the springs whose first particle it is. MASKED takes spring shares and masses from images
-// (holes, cuts). COLLIDING measures contact with the scene's colliders, MESHES too, with triangle meshes among them.
+// (holes, cuts), RESTS_BENT too, of a cloth that bends and rests in the shape that it starts in. COLLIDING measures
+// contact with the scene's colliders, MESHES too, with triangle meshes among them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants MASKED COLLIDING|MESHES
+#pragma variants MASKED|RESTS_BENT COLLIDING|MESHES
 #include "shared/simulation_types.h"
+#include "include/bend.h"
 #include "include/push.h"
+#include "include/rest_bend.h"
 #include "include/spring.h"
 #include "include/statistics.h"
+#ifdef RESTS_BENT
+#define MASKED
+#endif
 #ifdef MESHES
 #define COLLIDING
 #endif
@@ -32,6 +38,10 @@ layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Each cloth has a texel. xyz: positions are summed relative to this point, m; w: thickness, m.
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
+#ifdef RESTS_BENT
+layout(set = 0, binding = 13, rgba32f) uniform readonly image2D rest_shape;
+#endif
+layout(constant_id = 28) const bool has_bend = false;
 #include "include/rest_length.h"
 
 vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, cloth_place())); }
@@ -72,6 +82,63 @@ StatisticsRecord with_spring(StatisticsRecord record, ivec2 owner, vec3 first, v
                              record.counts.x == 0u ? share : 0.0f, push.compression, tension, direction >= 2);
 }
 
+/// The edge between two particles at rest and now, m.
+struct Edge {
+    vec3 rest, now;
+};
+
+Edge edge_between(ivec2 from, ivec2 to) {
+    precise vec3 rest = vec3(0.0f);
+#ifdef RESTS_BENT
+    rest = LOAD(rest_shape, to).xyz - LOAD(rest_shape, from).xyz;
+#endif
+    precise vec3 now = LOAD(position, to).xyz - LOAD(position, from).xyz;
+    return Edge(rest, now);
+}
+
+Edge sum_of(Edge one, Edge other, float sign) {
+    precise vec3 rest = other.rest + one.rest * sign;
+    precise vec3 now = other.now + one.now * sign;
+    return Edge(rest, now);
+}
+
+/// The edge, or none where the particles do not hang together.
+Edge if_there(Edge edge, float share) {
+    bool is_there = share > 0.0f;
+    return Edge(is_there ? edge.rest : vec3(0.0f), is_there ? edge.now : vec3(0.0f));
+}
+
+/// How far an element is beyond its rest, m; `row` and `column`: the tangents of its place (include/rest_bend.h).
+vec3 beyond_rest_in(Edge difference, Edge row, Edge column) {
+    vec3 target = vec3(0.0f);
+#ifdef RESTS_BENT
+    vec4 coordinates = rest_coordinates(difference.rest, Tangents(row.rest, column.rest));
+    target = rest_difference(coordinates, Tangents(row.now, column.now), difference.now);
+#endif
+    return beyond_rest(difference.now, target);
+}
+
+/// Adds the bending elements whose middle a particle is, and the twist of the cell whose upper left corner it is. Those
+/// that leave the grid have no share.
+StatisticsRecord with_bending(StatisticsRecord record, ivec2 texel) {
+    ivec2 left = texel - ivec2(1, 0), up = texel - ivec2(0, 1), right = texel + ivec2(1, 0),
+          below = texel + ivec2(0, 1), across = texel + ivec2(1, 1);
+    vec4 shares = shares_of(texel);
+    float share_left = texel.x > 0 ? shares_of(left).x : 0.0f, share_up = texel.y > 0 ? shares_of(up).y : 0.0f;
+    Edge to_left = edge_between(texel, left), to_right = edge_between(texel, right), to_up = edge_between(texel, up),
+         to_below = edge_between(texel, below);
+    Edge row = sum_of(if_there(to_left, share_left), if_there(to_right, shares.x), -1.0f),
+         column = sum_of(if_there(to_up, share_up), if_there(to_below, shares.y), -1.0f);
+    record = add_bending(record, beyond_rest_in(sum_of(to_left, to_right, 1.0f), row, column), push.half_bend.x,
+                         bend_share(share_left, shares.x));
+    record = add_bending(record, beyond_rest_in(sum_of(to_up, to_below, 1.0f), row, column), push.half_bend.y,
+                         bend_share(share_up, shares.y));
+    Edge lower = edge_between(below, across), far = edge_between(right, across);
+    vec3 twisted = beyond_rest_in(sum_of(to_right, lower, -1.0f), sum_of(to_right, lower, 1.0f),
+                                  sum_of(to_below, far, 1.0f));
+    return add_bending(record, twisted, push.half_bend.z, twist_share(shares, shares_of(right), shares_of(below)));
+}
+
 StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     vec3 at = around.here.xyz;
     precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
@@ -82,6 +149,7 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     record = with_spring(record, texel, at, around.below, 1, shares.y, LOAD(tension_column, texel).x);
     record = with_spring(record, texel, at, around.below_right, 2, shares.z, 0.0f);
     record = with_spring(record, texel, at, around.below_left, 3, shares.w, 0.0f);
+    if (has_bend) record = with_bending(record, texel);
 #ifdef COLLIDING
     // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
     // count.

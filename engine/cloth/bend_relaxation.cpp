@@ -65,7 +65,7 @@ glsl::BendTargetPush bend_target_constants(const ClothGeometry& cloth, bool gath
 }
 
 void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
-    scheme.used_bend = cloth.bend;
+    scheme.used_bend = scheme.used_twist = cloth.bend;
     if (cloth.bend == 0) return;
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
     double share = std::min(1.0, twist / twist_pass_compliance);
@@ -85,7 +85,7 @@ void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& setti
     const float compliance = pass_compliance(twist, share, twist_pass_compliance);
     add_twists(cloth, compliance, compliance, scheme);
     if (share == 1) return;
-    scheme.used_bend *= share;
+    scheme.used_bend = scheme.used_twist = share * cloth.bend;
     scheme.following_substeps = whole_substeps(substeps_for(share, settings));
     note_compromise(cloth, settings, "bending",
                     fmt::format("one pass per substep follows {:.3g} of {:.3g} N m", scheme.used_bend, cloth.bend),
@@ -94,7 +94,7 @@ void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& setti
 
 void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
                           MethodScheme& scheme) {
-    scheme.used_bend = cloth.bend;
+    scheme.used_bend = scheme.used_twist = cloth.bend;
     if (cloth.bend == 0) return;
     add_rest_bend(cloth, settings, 1, factors.bdf2, scheme);
     const double twist = wanted_compliance(cloth.stiffness_constant.twist, cloth, settings);
@@ -105,6 +105,7 @@ void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& sett
     add_twists(cloth, compliance(1), compliance(factors.bdf2), scheme);
     const double share = followed(factors.least);
     if (share == 1) return;
+    scheme.used_twist = share * cloth.bend;
     scheme.following_substeps = whole_substeps(substeps_for(share, settings));
     note_compromise(cloth, settings, "twist",
                     fmt::format("one pass per substep follows {:.3g} of {:.3g} N m where the cloth twists; "

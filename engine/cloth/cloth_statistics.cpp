@@ -30,6 +30,13 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
         component(push.half_stiffness, direction) =
             std::isfinite(stiffness) ? static_cast<float>(0.5 * stiffness) : 0.0f;
     }
+    if (cloth.bend > 0) {
+        const StiffnessConstants& constant = cloth.stiffness_constant;
+        const double bend = 0.5 * cloth.scheme.used_bend / cloth.bend,
+                     twist = 0.5 * cloth.scheme.used_twist / cloth.bend;
+        push.half_bend = {static_cast<float>(bend * constant.bend[0]), static_cast<float>(bend * constant.bend[1]),
+                          static_cast<float>(twist * constant.twist), 0};
+    }
     push.collider_first = first_collider(model, cloth, model.scene.solver.substeps - 1);
     push.grid = cloth.grid.size();
     push.compression = cloth.compression;

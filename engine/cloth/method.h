@@ -54,7 +54,8 @@ struct MethodScheme {
     std::optional<glsl::TensionPush> gathered_tension;
 
     PerDirection<double> used_stiffness;  ///< N/m applied per direction, away from borders; infinite when rigid
-    double used_bend = 0;                 ///< N m applied
+    double used_bend = 0;                 ///< N m applied along rows and columns
+    double used_twist = 0;                ///< N m applied where the cloth twists
     /// Fewer per frame would drop what no judgement of a run sees: bending, and stiffness that micro-steps soften.
     std::uint32_t following_substeps = 1;
     std::vector<SkippedWork> skipped;

@@ -71,7 +71,7 @@ MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& s
                                cloth.compression};
     scheme.used_stiffness = {used.columns_share * wanted.spring[0], used.rows_share * wanted.spring[1],
                              used.shear_share * wanted.spring[2], used.shear_share * wanted.spring[3]};
-    scheme.used_bend = used.bend_share * cloth.bend;
+    scheme.used_bend = scheme.used_twist = used.bend_share * cloth.bend;
     scheme.following_substeps = whole_substeps(settings.substeps * used.full_substeps_factor);
     if (wanted.spring[2] == 0) scheme.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     if (used.softened()) note_softening(cloth, settings, used.full_substeps_factor, scheme);

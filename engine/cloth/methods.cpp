@@ -86,12 +86,12 @@ std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
     // A binding names every member: one that is added does not compile until it is added here.
     const auto& [prediction, once, iterated, start, starts, spare_state, spare_displacement, spare_tension,
                  second_order, line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension,
-                 used_stiffness, used_bend, following_substeps, skipped, compromises] = scheme;
+                 used_stiffness, used_bend, used_twist, following_substeps, skipped, compromises] = scheme;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
     add(prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order, line_scratch,
         carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
-        following_substeps);
+        used_twist, following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
     for (const glsl::vec4& each : starts) list.add(each);
     static_cast<void>(skipped), static_cast<void>(compromises);  // these are words

@@ -79,6 +79,7 @@ class Reduction {
             particle_statistics(xyz(position), velocity, share, xyz(reference_), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
+        if (cloth_.bend > 0) record = with_bending(record, particle);
         if (position.w != 0.0f) record.extents.z = penetration(xyz(position), cloth_.skin_of(index).x);
         return record;
     }
@@ -94,6 +95,59 @@ class Reduction {
             record, xyz(state_[Field::position][at(first)]), xyz(state_[Field::position][at(second)]),
             state_.topology.cloth().rest_length(component(push_.rest_length, direction), at(first), direction),
             component(push_.half_stiffness, direction), share, push_.compression, tension, direction >= 2);
+    }
+
+    struct Edge {
+        vec3 rest{0, 0, 0}, now{0, 0, 0};
+    };
+
+    Edge edge(ivec2 from, ivec2 to) const {
+        if (!inside(from) || !inside(to)) return {};
+        return {xyz(cloth_.position[at(to)]) - xyz(cloth_.position[at(from)]),
+                xyz(state_[Field::position][at(to)]) - xyz(state_[Field::position][at(from)])};
+    }
+    static Edge sum_of(const Edge& one, const Edge& other, float sign) {
+        return {other.rest + one.rest * sign, other.now + one.now * sign};
+    }
+
+    /// Returns the shares of the springs that a particle owns, by direction; 0 for those that leave the grid.
+    vec4 shares(ivec2 owner) const {
+        vec4 all{0, 0, 0, 0};
+        for (int direction = 0; direction < 4; ++direction) {
+            const ivec2 offset = spring_directions[static_cast<std::size_t>(direction)].offset;
+            if (!inside(owner) || !inside({owner.x + offset.x, owner.y + offset.y})) continue;
+            component(all, direction) = state_.topology.masked()
+                                            ? component(state_.topology.spring_shares()[at(owner)], direction)
+                                            : border_share(owner, offset, push_.grid);
+        }
+        return all;
+    }
+
+    vec3 beyond(const Edge& difference, const Edge& row, const Edge& column) const {
+        vec3 target{0, 0, 0};
+        if (cloth_.rests_bent())
+            target = rest_difference(rest_coordinates(difference.rest, Tangents(row.rest, column.rest)),
+                                     Tangents(row.now, column.now), difference.now);
+        return beyond_rest(difference.now, target);
+    }
+
+    StatisticsRecord with_bending(const StatisticsRecord& record, ivec2 p) const {
+        const ivec2 left{p.x - 1, p.y}, up{p.x, p.y - 1}, right{p.x + 1, p.y}, below{p.x, p.y + 1},
+            across{p.x + 1, p.y + 1};
+        const vec4 own = shares(p);
+        const float share_left = shares(left).x, share_up = shares(up).y;
+        const auto if_there = [](const Edge& side, float share) { return share > 0.0f ? side : Edge{}; };
+        const Edge to_left = edge(p, left), to_right = edge(p, right), to_up = edge(p, up), to_below = edge(p, below),
+                   lower = edge(below, across), far = edge(right, across);
+        const Edge row = sum_of(if_there(to_left, share_left), if_there(to_right, own.x), -1.0f),
+                   column = sum_of(if_there(to_up, share_up), if_there(to_below, own.y), -1.0f);
+        StatisticsRecord sum = add_bending(record, beyond(sum_of(to_left, to_right, 1.0f), row, column),
+                                           push_.half_bend.x, bend_share(share_left, own.x));
+        sum = add_bending(sum, beyond(sum_of(to_up, to_below, 1.0f), row, column), push_.half_bend.y,
+                          bend_share(share_up, own.y));
+        const vec3 twisted =
+            beyond(sum_of(to_right, lower, -1.0f), sum_of(to_right, lower, 1.0f), sum_of(to_below, far, 1.0f));
+        return add_bending(sum, twisted, push_.half_bend.z, twist_share(own, shares(right), shares(below)));
     }
 
     float penetration(vec3 position, float thickness) const {

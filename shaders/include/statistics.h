@@ -113,4 +113,13 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
     return record;
 }
 
+/// Returns a particle's `record` plus the energy of a bending element or a cell's twist that is `beyond` its rest (m),
+/// for half of its constant (N/m) and the `share` of it that acts, 0 = no such element (include/bend.h).
+SHARED StatisticsRecord add_bending(StatisticsRecord record, vec3 beyond, float half_constant, float share) {
+    bool counts = share > 0.0f && is_finite(beyond);
+    precise float stored = share * half_constant * ordered_dot(beyond, beyond);
+    record.squares = ordered_sum(record.squares, vec4(-0.0f, -0.0f, counts ? stored : -0.0f, -0.0f));
+    return record;
+}
+
 #endif

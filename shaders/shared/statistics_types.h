@@ -18,6 +18,7 @@ const int statistics_rows = 32, statistics_chunk = 4096;
 struct StatisticsPush {
     vec4 rest_length;     // m; 0: the cloth has no springs of this direction
     vec4 half_stiffness;  // N/m, k/2; 0: rigid, stores no energy
+    vec4 half_bend;       // N/m, half the constants of bending along rows, along columns, and of twist (include/bend.h)
     ivec2 grid;           // columns, rows
     int collider_first;   // first collider at the frame's end
     float compression;    // share of the stiffness where springs are pushed together

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/vectors.h"
 #include "cloth/texels.h"
 #include "reference/twin.h"
 #include "run/run_statistics.h"
@@ -58,6 +59,83 @@ inline StrainStatistics plain_strain(const SceneDescription& scene, const ClothM
     return strain;
 }
 
+/// An edge, or a sum of edges, at rest and now, m.
+struct PlainEdge {
+    Vec3 rest{}, now{};
+    PlainEdge plus(const PlainEdge& other, double sign) const {
+        return {drape::plus(rest, times(sign, other.rest)), drape::plus(now, times(sign, other.now))};
+    }
+};
+
+/// Bending energy, element by element in double precision (docs/physics.md 4), of cloth that spans a plane where it
+/// rests bent.
+class PlainBending {
+  public:
+    PlainBending(const SceneDescription& scene, const ClothModel& model, const TwinCloth& state)
+        : cloth_(scene.cloths[0]), model_(model), state_(state) {}
+
+    double energy() const {
+        const double dx = model_.spacing[0], dy = model_.spacing[1], rigidity = cloth_.stiffness.bend;
+        double doubled = 0;
+        for (int y = 0; y < model_.grid.size().y; ++y)
+            for (int x = 0; x < model_.grid.size().x; ++x) {
+                const PlainEdge row = side(x, y, 1, 0).plus(side(x, y, -1, 0), -1),
+                                column = side(x, y, 0, 1).plus(side(x, y, 0, -1), -1);
+                const double along_row = std::min(share(x, y, 1, 0), share(x, y, -1, 0)),
+                             along_column = std::min(share(x, y, 0, 1), share(x, y, 0, -1));
+                if (along_row > 0)
+                    doubled += rigidity * dy / (dx * dx * dx) * along_row *
+                               squared_beyond(edge(x, y, 1, 0).plus(edge(x, y, -1, 0), 1), row, column);
+                if (along_column > 0)
+                    doubled += rigidity * dx / (dy * dy * dy) * along_column *
+                               squared_beyond(edge(x, y, 0, 1).plus(edge(x, y, 0, -1), 1), row, column);
+                if (!has(x + 1, y + 1) || model_.grid.cell(x, y) != (upper_triangle | lower_triangle)) continue;
+                const PlainEdge upper = edge(x, y, 1, 0), lower = edge(x, y + 1, 1, 0);
+                doubled += 2 * rigidity / (dx * dy) * double{shares(x, y).z} *
+                           squared_beyond(upper.plus(lower, -1), upper.plus(lower, 1),
+                                          edge(x, y, 0, 1).plus(edge(x + 1, y, 0, 1), 1));
+            }
+        return doubled / 2;
+    }
+
+  private:
+    bool has(int x, int y) const { return x >= 0 && y >= 0 && x < model_.grid.size().x && y < model_.grid.size().y; }
+    glsl::vec4 shares(int x, int y) const {
+        return model_.grid.spring_shares(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    }
+    double share(int x, int y, int i, int j) const {
+        if (!has(x + i, y + j)) return 0;
+        const glsl::vec4 all = shares(x + std::min(i, 0), y + std::min(j, 0));
+        return i != 0 ? double{all.x} : double{all.y};
+    }
+    static Vec3 between(const glsl::vec4& a, const glsl::vec4& b) {
+        return {double{b.x} - double{a.x}, double{b.y} - double{a.y}, double{b.z} - double{a.z}};
+    }
+    PlainEdge edge(int x, int y, int i, int j) const {
+        const std::size_t from = at(model_.grid, {x, y}), to = at(model_.grid, {x + i, y + j});
+        return {between(model_.position[from], model_.position[to]),
+                between(state_[Field::position][from], state_[Field::position][to])};
+    }
+    PlainEdge side(int x, int y, int i, int j) const { return share(x, y, i, j) > 0 ? edge(x, y, i, j) : PlainEdge{}; }
+    double squared_beyond(const PlainEdge& difference, const PlainEdge& row, const PlainEdge& column) const {
+        Vec3 beyond = difference.now;
+        if (cloth_.rest == Rest::start) {
+            const Vec3 normal = cross(row.rest, column.rest);
+            const double volume = dot(normal, normal);
+            const double along_row = dot(difference.rest, cross(column.rest, normal)) / volume,
+                         along_column = dot(difference.rest, cross(normal, row.rest)) / volume,
+                         across = dot(difference.rest, normal) / volume;
+            beyond = minus(beyond, plus(plus(times(along_row, row.now), times(along_column, column.now)),
+                                        times(across, cross(row.now, column.now))));
+        }
+        return dot(beyond, beyond);
+    }
+
+    const Cloth& cloth_;
+    const ClothModel& model_;
+    const TwinCloth& state_;
+};
+
 /// Everything but penetration, evaluated plainly in double precision from the scene and the state.
 inline ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model,
                                         const TwinCloth& state) {
@@ -69,6 +147,7 @@ inline ClothStatistics plain_statistics(const SceneDescription& scene, const Sim
     plain.stretch_error_rms = std::sqrt(squared_error / plain.stretch.spring_count);
     plain.shear = plain_strain(scene, cloth, state, SpringFamily::shear, plain.elastic_energy, squared_error,
                                plain.stretch_error_max);
+    plain.elastic_energy += PlainBending(scene, cloth, state).energy();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const float weight = cloth.free_weight[i];
         const double mass = weight > 0 ? cloth.inner_mass / double(weight) : 0;

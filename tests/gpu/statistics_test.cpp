@@ -137,12 +137,12 @@ SceneDescription soft_sheet(std::uint32_t columns, std::uint32_t rows) {
     return scene;
 }
 
-void compare(const SceneDescription& scene, const ModelOptions& options = {}, float stretch = 1.15f) {
+void compare(const SceneDescription& scene, const ModelOptions& options = {}, float stretch = 1.15f, double floor = 0) {
     const SimulationModel model(scene, options);
     const float cell = static_cast<float>(std::min(model.cloths[0].spacing[0], model.cloths[0].spacing[1]));
     const TwinCloth state = crumpled_state(model, stretch, 0.1f * cell, 5);
     expect_plain(cloth_statistics(model, model.cloths[0], expect_same_record(model, state)),
-                 test::plain_statistics(scene, model, state));
+                 test::plain_statistics(scene, model, state), floor);
 }
 
 TEST(StatisticsTest, SmallestGrid) { compare(soft_sheet(2, 2)); }
@@ -187,6 +187,61 @@ TEST(StatisticsTest, AClothThatRestsAsItStarts) {
     // Some springs are of nearly the length that they have at rest: the difference of two, each rounded to 24 bits.
     expect_plain(cloth_statistics(model, model.cloths[0], expect_same_record(model, state)),
                  test::plain_statistics(scene, model, state), 0x1p-22);
+}
+
+/// So stiff that bending has most of the energy.
+SceneDescription bending_sheet(std::uint32_t columns, std::uint32_t rows) {
+    SceneDescription scene = soft_sheet(columns, rows);
+    scene.cloths[0].stiffness.bend = 2e-2;
+    scene.cloths[0].placement.origin = {0, 0, 0};
+    scene.solver.substeps = 2000;
+    return scene;
+}
+
+TEST(StatisticsTest, BendingIsElasticEnergy) {
+    for (const auto& [columns, rows] : {std::pair(2u, 2u), std::pair(2u, 9u), std::pair(65u, 33u), std::pair(70u, 3u)})
+        compare(bending_sheet(columns, rows), {}, 1.15f, 0x1p-22);  // as below, some springs are hardly strained
+}
+
+TEST(StatisticsTest, BendingBesideHolesAndOfFactors) {
+    SceneDescription scene = bending_sheet(65, 33);
+    scene.cloths[0].holes = {{{10, 5}, {20, 12}}, {{30, 7}, {31, 8}}, {{50, 20}, {64, 32}}};
+    compare(scene);
+    Cloth& cloth = scene.cloths[0];
+    for (std::uint32_t cell = 0; cell < 64 * 32; ++cell)
+        cloth.cell_stiffness.push_back(1.0f + 0.5f * std::sin(0.1f * static_cast<float>(cell)));
+    compare(scene);
+}
+
+TEST(StatisticsTest, BendingIsCountedAsStiffAsTheMethodMakesIt) {
+    SceneDescription scene = bending_sheet(40, 33);
+    const auto energy = [&](double rigidity, std::uint32_t substeps) {
+        scene.cloths[0].stiffness.bend = rigidity;
+        scene.solver.substeps = substeps;
+        const SimulationModel model(scene);
+        const TwinCloth state = crumpled_state(model, 1, 1e-3f, 5);
+        const glsl::StatisticsRecord record = expect_same_record(model, state);
+        return cloth_statistics(model, model.cloths[0], record).elastic_energy;
+    };
+    const double springs = energy(0, 5), whole = energy(2e-2, 2000) - springs, part = energy(2e-2, 5) - springs;
+    const double share = ClothModel(scene, 0).scheme.used_bend / 2e-2;
+    EXPECT_LT(share, 0.5);
+    EXPECT_NEAR(part, share * whole, 1e-4 * whole);
+}
+
+TEST(StatisticsTest, BendingOfAClothThatRestsBent) {
+    SceneDescription scene = bending_sheet(65, 33);
+    Cloth& cloth = scene.cloths[0];
+    cloth.start = wavy_start(cloth.grid);
+    cloth.placement = {};
+    cloth.rest = Rest::start;
+    cloth.holes = {{{10, 5}, {20, 12}}, {{30, 7}, {31, 8}}};
+    const SimulationModel model(scene);
+    const TwinCloth state = crumpled_state(model, 1.15f, 2e-3f, 5);
+    expect_plain(cloth_statistics(model, model.cloths[0], expect_same_record(model, state)),
+                 test::plain_statistics(scene, model, state), 0x1p-22);
+    const glsl::StatisticsRecord rest = expect_same_record(model, crumpled_state(model, 1, 0, 5));
+    EXPECT_LT(cloth_statistics(model, model.cloths[0], rest).elastic_energy, 1e-6);
 }
 
 TEST(StatisticsTest, AMaskChangesNothingOnAWholeCloth) {

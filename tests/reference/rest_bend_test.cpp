@@ -7,6 +7,7 @@
 
 #include "base/vectors.h"
 #include "reference/kernels.h"
+#include "reference/statistics.h"
 #include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
@@ -204,6 +205,43 @@ TEST(RestBendTest, AStrandIsAsLongAtRestAnyWayItBends) {
     EXPECT_EQ(glsl::rest_pull(coordinates, glsl::Tangents(along, none), now).row.y, 0);
     const glsl::vec3 straight = glsl::rest_difference(coordinates, glsl::Tangents(along, none), none);
     EXPECT_EQ(straight.y, 0);
+}
+
+/// Returns the total energy that statistics state, J, and the kinetic one.
+std::pair<double, double> stated_energy(const SimulationModel& model, const Twin& twin, std::uint32_t frame) {
+    const ClothStatistics statistics = cloth_statistics(
+        model, model.cloths[0], twin_statistics(model, 0, twin.cloth(0), frame_inputs(model, frame)), frame);
+    return {statistics.kinetic_energy + statistics.potential_energy + statistics.elastic_energy,
+            statistics.kinetic_energy};
+}
+
+TEST(RestBendTest, StatedEnergyIsKeptByAFreeSheetThatUnbendsOrSwings) {
+    for (const Rest rest : {Rest::flat, Rest::start}) {
+        SceneDescription scene = test::sheet(13, 13, 0.6, 0.6, 600);
+        scene.solver.method = SolverMethod::explicit_steps;
+        scene.solver.strain_damping = 0;
+        scene.gravity = {0, 0, 0};
+        Cloth& cloth = scene.cloths[0];
+        cloth.stiffness = {false, 1000, 100, 1e-2};
+        cloth.damping = 0;
+        roll(cloth, 3);
+        cloth.rest = rest;
+        if (rest == Rest::start)
+            for (const Vec3& at : cloth.start) cloth.velocities.push_back({0, std::cos(9 * at[0] + 4 * at[2]), 0});
+        const SimulationModel model(scene);
+        Twin twin(model);
+        const double start = stated_energy(model, twin, 0).first;
+        double worst = 0, kinetic = 0;
+        for (std::uint32_t frame = 1; frame <= 30; ++frame) {
+            twin.run_frame(frame);
+            const auto [total, moving] = stated_energy(model, twin, frame);
+            worst = std::max(worst, std::abs(total - start));
+            kinetic = std::max(kinetic, moving);
+        }
+        std::printf("[ measured ] energy of %.4f J, of which %.4f J move, errs by %.1e J\n", start, kinetic, worst);
+        EXPECT_GT(kinetic, 0.5 * start);
+        EXPECT_LE(worst, 1e-4 * start);
+    }
 }
 
 }  // namespace

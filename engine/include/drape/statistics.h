@@ -26,7 +26,7 @@ struct ClothStatistics {
     /// J, from the velocities at the frame's end: those of the last substep and half its acceleration.
     double kinetic_energy = 0;
     double potential_energy = 0;             ///< J, gravity's; 0 at the origin
-    double elastic_energy = 0;               ///< J, of the stretch and shear springs; rigid ones store none
+    double elastic_energy = 0;               ///< J, of bending and of springs; rigid ones store none
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
     /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.
