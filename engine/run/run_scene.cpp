@@ -327,6 +327,18 @@ std::function<void(const FrameAttempt&)> told_to(Progress*& progress) {
     };
 }
 
+/// Returns the frames of a run that did not come to its end, as far as they were written. Where none was, the end lies
+/// before the start.
+Manifest::Frames written_frames(Manifest::Frames frames, const RunStatistics& statistics) {
+    frames.count = 0;
+    frames.end = frames.start - frames.step;
+    statistics.for_each_frame([&](const Manifest::FrameStatistics& each) {
+        ++frames.count;
+        frames.end = each.frame;
+    });
+    return frames;
+}
+
 /// The files of a run that is done, or of one that failed as far as it came.
 void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::optional<RunFailure>& failure) {
     manifest.cuts = sink.cuts();
@@ -336,6 +348,7 @@ void finish_files(Sink& sink, Manifest& manifest, RunSummary& summary, std::opti
     manifest.solver.stretch_error =
         std::max(manifest.solver.stretch_error, statistics->worst_of_run("/stretch_error_rms"));
     try {
+        if (!summary.complete) manifest.frames = written_frames(manifest.frames, *statistics);
         sink.add_timings(manifest);
         // Arrays of a run that something broke are no result; those before a frame that fails again are one.
         const bool whole =

@@ -26,6 +26,20 @@ TEST(Tolerance, MissedEndsTheRunNamingFrameClothAndErrorAndKeepsTheFramesBefore)
                                                                HasSubstr("\"failure\": \"the tolerance is missed")));
 }
 
+TEST(Tolerance, TheManifestOfARunThatStoppedSaysWhichFramesWereWritten) {
+    const SceneFolder folder(small_scene(9));
+    const auto frames_from = [&](const std::string& start) {
+        const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out("from " + start), "-q", "-s", start,
+                                       "--set", "/solver/tolerance=1e-5", "--set", "/solver/iterations=2"});
+        EXPECT_EQ(outcome.code, 8) << outcome.err;
+        return read_text(folder / ("from " + start) / "manifest.json");
+    };
+    EXPECT_THAT(frames_from("0"),
+                AllOf(HasSubstr("\"count\": 1,"), HasSubstr("\"start\": 0,"), HasSubstr("\"end\": 0,")));
+    EXPECT_THAT(frames_from("3"),
+                AllOf(HasSubstr("\"count\": 0,"), HasSubstr("\"start\": 3,"), HasSubstr("\"end\": 2,")));
+}
+
 TEST(Tolerance, MetIsARunLikeAnyOtherAndStatesItsIterations) {
     const SceneFolder folder(small_scene(4));
     const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--set",
