@@ -287,7 +287,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
             "expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
         fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
-    if (members.fit({"grid", "size", "start"})) fits = take_start(members, cloth) && fits;
+    if (members.fit({"grid", "size", "holes", "maps", "start"})) fits = take_start(members, cloth) && fits;
     if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
         fits = check_resolution(members.object(), cloth) && fits;

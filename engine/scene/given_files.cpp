@@ -126,7 +126,7 @@ bool take_start(const Members& members, Cloth& cloth) {
     std::string name;
     if (!node.read(name) || is_too_large(cloth)) return true;
     try {
-        cloth.start = input::read_positions(node.file(name), cloth.grid[0], cloth.grid[1]);
+        cloth.start = input::read_positions(node.file(name), cloth.grid[0], cloth.grid[1], particles_of_cells(cloth));
     } catch (const OutputError& error) {
         return node.fail(error.what());
     }

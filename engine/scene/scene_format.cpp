@@ -240,11 +240,10 @@ const Object<Cloth> cloth{
         {"start", text().text, read_text<Cloth>,
          "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "
          "[frames, rows, columns, 3], float32 or float64), .npz (its array positions, as drape writes it), .obj (a "
-         "vertex for each particle, row by row) or .pc2; of several frames the last. At rest the cloth is still flat "
-         "and of its size, unless rest says otherwise. It starts without speed, or with velocity or velocities. A "
-         "relative name is looked for "
-         "beside the scene "
-         "file; where a scene is none (a pipe, a text, a dict), in the working directory."},
+         "vertex for each particle, row by row) or .pc2, both with or without the particles that holes leave without a "
+         "cell; of several frames the last. At rest the cloth is still flat and of its size, unless rest says "
+         "otherwise. It starts without speed, or with velocity or velocities. A relative name is looked for beside the "
+         "scene file; where a scene is none (a pipe, a text, a dict), in the working directory."},
         {"rest", &Cloth::rest, choice<Rest>(rest_spellings),
          "The shape in which the cloth is at rest. flat: the flat cloth of this size. start: that of the file start, "
          "its lengths and its curvature; springs are 1/4 to 4 times as long as the flat cloth's. Their constants, mass "

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 #include "base/vectors.h"
@@ -194,6 +193,16 @@ std::vector<bool> missing_cells(const Cloth& cloth) {
     return missing;
 }
 
+std::vector<bool> particles_of_cells(const Cloth& cloth) {
+    const std::vector<bool> missing = missing_cells(cloth);
+    const std::size_t columns = cloth.grid[0], cells = columns - 1;
+    std::vector<bool> has_cell(columns * cloth.grid[1]);
+    for (std::size_t cell = 0; cell < missing.size(); ++cell)
+        for (const std::size_t corner : {std::size_t{0}, std::size_t{1}, columns, columns + 1})
+            if (!missing[cell]) has_cell[cell / cells * columns + cell % cells + corner] = true;
+    return has_cell;
+}
+
 bool leaves_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
     if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > scene_particle_limit) return true;  // another error reports it
@@ -316,11 +325,13 @@ std::string start_fault(const Cloth& cloth) {
         for (const double x : cloth.start[i])
             if (!(std::abs(x) <= std::numeric_limits<float>::max()))
                 return fmt::format("finite places, got {:g} for {}", x, particle(i));
-    std::vector<std::size_t> order(count);
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    const std::vector<bool> has_cell = particles_of_cells(cloth);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < count; ++i)
+        if (has_cell[i]) order.push_back(i);
     std::ranges::sort(
         order, [&](std::size_t a, std::size_t b) { return std::tie(cloth.start[a], a) < std::tie(cloth.start[b], b); });
-    for (std::size_t i = 1; i < count; ++i)
+    for (std::size_t i = 1; i < order.size(); ++i)
         if (cloth.start[order[i]] == cloth.start[order[i - 1]])
             return fmt::format("a place of its own for each particle, got one place for {} and {}",
                                particle(order[i - 1]), particle(order[i]));

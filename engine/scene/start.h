@@ -20,6 +20,8 @@ std::vector<bool> held_at_start(const Cloth& cloth);
 
 /// Returns by cell, row by row, whether a hole takes it away.
 std::vector<bool> missing_cells(const Cloth& cloth);
+/// Returns whether each particle has a cell beside it. Others take part in nothing.
+std::vector<bool> particles_of_cells(const Cloth& cloth);
 
 /// Returns whether the holes leave any cell.
 bool leaves_a_cell(const Cloth& cloth);

@@ -130,6 +130,21 @@ TEST(Export, ArchivesMayBePacked) {
     EXPECT_THAT(none.err, testing::HasSubstr("--compress: no format that is written is an archive"));
 }
 
+TEST(Export, PointCachesAndMeshesOfAClothWithAHoleAreStartsOfIt) {
+    const SceneFolder folder(R"({"time": {"frames": 3}, "cloths": [{"grid": [9, 7], "size": [0.8, 0.6],
+        "holes": [[[2, 2], [4, 4]]], "pins": [{"edge": "top"}]}]})");
+    ASSERT_EQ(drape({"simulate", folder.scene(), "-o", folder.out("a"), "--export", "npz,pc2", "-q"}).code, 0);
+    const auto all = input::read_positions(folder / "a/positions.npz", 9, 7);
+    for (const std::string kind : {"pc2", "obj"}) {
+        const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(kind), "-q", "--set",
+                                       "/cloths/0/start=\"a/positions." + kind + "\"", "--set", "/time/frames=1"});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+    }
+    const auto found = input::read_positions(folder / "pc2/positions.npz", 9, 7);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (i != 3 * 9 + 3) EXPECT_EQ(found[i], all[i]) << i;  // that one lies in the hole
+}
+
 TEST(Export, TheArchiveHasWhatMakesTheRunAgain) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no NumPy";
     const SceneFolder folder(small_scene(9));

@@ -78,6 +78,20 @@ TEST_F(PositionsFile, VerticesOfAMesh) {
     EXPECT_THAT(error("a.obj", std::string(3 << 20, 'v')), HasSubstr("line 1 is too long"));
 }
 
+TEST_F(PositionsFile, ParticlesInHolesMayBeMissing) {
+    const std::vector<bool> is_used{true, true, true, true, false, false};
+    write_text(folder_ / "a.obj", "v 0 1 2\nv 3 4 5\nv 6 7 8\nv 9 10 11\n");
+    write_text(folder_ / "a.pc2", cache(4, 1, {six.begin(), six.begin() + 12}));
+    const Positions expected{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {6, 7, 8}, {6, 7, 8}};
+    for (const char* name : {"a.obj", "a.pc2"})
+        EXPECT_EQ(input::read_positions(folder_ / name, 3, 2, is_used), expected) << name;
+    write_text(folder_ / "b.pc2", cache(6, 1, six));
+    expect_six(input::read_positions(folder_ / "b.pc2", 3, 2, is_used));
+    write_text(folder_ / "c.obj", "v 0 1 2\nv 3 4 5\nv 6 7 8\nv 9 10 11\nv 0 0 0\n");
+    EXPECT_THAT(error_text<OutputError>([&] { input::read_positions(folder_ / "c.obj", 3, 2, is_used); }),
+                HasSubstr("needs 6 vertices, or 4 without those in holes, and it has 5"));
+}
+
 TEST_F(PositionsFile, AMeshOfMillionsOfVerticesIsCountedAndNotKept) {
     std::string text;
     for (int i = 0; i < 1'000'000; ++i) text += "v 1 2 3\n";
