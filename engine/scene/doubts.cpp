@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/vectors.h"
@@ -18,6 +19,8 @@ namespace {
 // Lengths are m. Sails and tents are smaller, tarpaulins and lead aprons lighter, tornadoes slower.
 constexpr double large = 200, heavy = 50, fast = 150, far = 200;
 constexpr double narrow = 1;  ///< degrees: a telescope's
+
+using Corners = std::array<Vec3, 3>;
 
 /// Values that are much too large are mostly in a smaller unit.
 constexpr const char* metres = "scenes are in metres: divide millimetres by 1000, centimetres by 100";
@@ -75,6 +78,41 @@ void warn_of_cloth(const SceneNode& node, const Cloth& cloth) {
         warn_of_far(node.member("pins").element(pin).member("path"), cloth.pins[pin].path);
 }
 
+/// Returns how many particles start in a triangle, up to rounding.
+std::size_t particles_in(const Corners& corners, const Cloth& cloth) {
+    const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    const double rounding = 1e-5 * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    std::size_t count = 0;
+    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column) {
+            const Vec3 at = start_place(cloth, column, row);
+            if (std::abs(dot(normal, minus(at, corners[0]))) > rounding * length(normal)) continue;
+            bool inside = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 side = minus(corners[(k + 1) % 3], corners[k]);
+                inside = inside && dot(normal, cross(side, minus(at, corners[k]))) >= 0;
+            }
+            count += inside ? 1 : 0;
+        }
+    return count;
+}
+
+/// A blade in a column's plane separates the column from one side, and again wherever rounding moves its particles.
+void warn_of_blades(const SceneNode& cutters, const SceneDescription& scene) {
+    for (std::size_t i = 0; i < scene.cutters.size(); ++i)
+        for (const Cloth& cloth : scene.cloths) {
+            const Cutter& cutter = scene.cutters[i];
+            if (!cutter.path.keys.empty() || start_jitter(cloth) > 0) continue;
+            const std::size_t count = particles_in(cutter.triangle, cloth);
+            if (count < 2) continue;
+            cutters.element(i).warn(fmt::format(
+                "{} particles of cloth \"{}\" start exactly in the cutter's plane: as they move to and fro through it, "
+                "crumbs are cut off; move the cutter aside by a fraction of a cell",
+                count, cloth.name));
+            break;
+        }
+}
+
 }  // namespace
 
 void warn_of_doubts(const Members& members, const SceneDescription& scene) {
@@ -96,6 +134,7 @@ void warn_of_doubts(const Members& members, const SceneDescription& scene) {
     if (members.fit({"camera"}) && scene.camera && scene.camera->fov < narrow)
         members["camera"].member("fov").warn(fmt::format(
             "a field of view of {:.3g} degrees shows next to nothing: angles are in degrees", scene.camera->fov));
+    if (members.fit({"cloths", "cutters"})) warn_of_blades(members["cutters"], scene);
     if (members.fit({"time", "cloths", "colliders", "solver"})) warn_of_held(members["cloths"], scene);
 }
 

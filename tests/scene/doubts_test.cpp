@@ -47,5 +47,21 @@ TEST(Doubts, EveryAbsurdValueIsNamedWithItsField) {
     }
 }
 
+TEST(Doubts, ACutterInTheVeryPlaneOfAColumnIsWarnedOf) {
+    const auto warnings = [](const char* x) {
+        return read_scene_text(fmt::format(R"({{"cloths": [{{"grid": [17, 17], "size": [0.8, 0.8],
+            "placement": {{"origin": [-0.4, 1.2, 0]}}, "pins": [{{"edge": "top"}}]}}],
+            "cutters": [{{"triangle": [[{0}, 2, -1], [{0}, 2, 1], [{0}, -2, 0]], "active": [0.1, 0.4]}}]}})",
+                                           x),
+                               "o.json")
+            .warnings;
+    };
+    EXPECT_THAT(warnings("0.01"), IsEmpty());
+    EXPECT_THAT(warnings("0.8"), IsEmpty()) << "beside the cloth";
+    ASSERT_EQ(warnings("0").size(), 1u);
+    EXPECT_THAT(warnings("0")[0].text(),
+                testing::AllOf(HasSubstr("/cutters/0"), HasSubstr("17 particles of cloth \"cloth\" start exactly in")));
+}
+
 }  // namespace
 }  // namespace drape
