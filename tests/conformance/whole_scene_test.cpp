@@ -88,7 +88,7 @@ TEST_P(WholeScene, StatisticsAreThoseOfThePositions) {
     EXPECT_NEAR(found.mass, mass, 1e-6 * mass);
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(found.center_of_mass[axis], sum[axis] / mass, 1e-6);
     EXPECT_NEAR(found.potential_energy, network.gravity_energy(run.positions), 1e-6 * mass * 9.81);
-    const double elastic = network.spring_energy(run.positions);
+    const double elastic = network.spring_energy(run.positions) + network.bending_energy(run.positions);
     EXPECT_NEAR(found.elastic_energy, elastic, 1e-3 * elastic);
 }
 
