@@ -19,7 +19,6 @@ PUSH_CONSTANTS(GridPush)
 #include "include/strips.h"
 #include "include/substep_state.h"
 
-layout(constant_id = 0) const bool touches = false;
 #ifdef EXCESS
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before;  // of the substep before the last
 VECTOR_OUT(10, EndExcessOut, end_excess_out);
@@ -41,7 +40,7 @@ void finish(ivec2 texel) {
     vec4 moved = LOAD(displacement_in, texel);
     advance_position(texel, LOAD(position_in, texel), moved.xyz);
 #ifdef EXCESS
-    vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz, touches ? contact_excess : free_excess);
+    vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz);
     STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
 #endif
 #ifdef HOME

@@ -1,6 +1,6 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
-// the scene has. HISTORY gives a particle that is touched the velocity of the displacement that it is left with, and
-// has the cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what collider_edges.comp left. SUPPORTING
+// the scene has. A particle that is touched has the velocity of the displacement that it is left with. HISTORY has the
+// cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what collider_edges.comp left. SUPPORTING
 // keeps the surfaces that particles lie on, for contact between cloths. AFTER_IMPULSES does that too, and goes on from
 // what contact between cloths has made of the displacements on their sheet; it leaves them there as well. MESHES has
 // triangle meshes among the colliders.
@@ -23,8 +23,8 @@ CLOTH_CONSTANTS(CollisionPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef HISTORY
 VECTOR_KEPT(3, DisplacementBefore, displacement_before);
+#ifdef HISTORY
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 #endif
 #ifdef LED
@@ -83,6 +83,17 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     STORE_TRIPLE(position_out, texel, led, start.w);
     return displacement;
 #endif
+}
+
+/// Returns what is kept as the displacement of the substep before that of a particle that is touched, so that it is not
+/// taken to rebound: its displacement, which self_return.comp will change where impulses pushed it.
+vec3 before_touched(ivec2 texel, vec3 displacement) {
+#ifdef AFTER_IMPULSES
+    ivec2 laid = push.laid + texel;
+    vec4 was = before[laid.y * push.sheet_columns + laid.x];
+    if (was.w == self_pushed || was.w == self_pushed_and_led) return was.xyz;
+#endif
+    return displacement;
 }
 
 /// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a collider led it:
@@ -187,8 +198,8 @@ bool meet_all(ivec2 texel, bool follows) {
         imageStore(support_grip, placed(texel), grip);
     }
 #endif
+    STORE_VECTOR(displacement_before, texel, vec4(before_touched(texel, displacement), 0.0f));
 #ifdef HISTORY
-    STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     // The load spares an atomic, as most particles that come here find the hold set.
     if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
         imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "scene/contact_shape.h"
-#include "scene/start_crossings.h"
 #include "scene/weather.h"
 
 namespace drape {
@@ -16,7 +15,6 @@ double largest_coordinate(const Cloth& cloth) {
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
-      touches(!scene.colliders.empty() || cloths_meet(scene)),
       scheme(
           row_of(scene.solver.method)
               .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),

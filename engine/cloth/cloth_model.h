@@ -29,7 +29,6 @@ struct ClothModel : ClothGeometry {
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
 
     double substep_length;  ///< s
-    bool touches;           ///< something can touch it: a collider, or cloth
     /// An edge of the cloth is at most so long, m, where it can meet that of a box or a mesh
     /// (shaders/collider_edges.comp). 0: the scene has neither, the cloth's contact is of particles, or its thickness
     /// keeps everything clear.

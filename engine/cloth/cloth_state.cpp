@@ -29,7 +29,9 @@ bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; 
 bool second_order(Context c) { return c.cloth.scheme.second_order; }
 bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.compares_states(); }
-bool keeps_before(Context c) { return second_order(c) || (judged(c) && !gathers(c)); }
+bool keeps_before(Context c) {
+    return second_order(c) || ((judged(c) || !c.model.scene.colliders.empty()) && !gathers(c));
+}
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.colliders.empty(); }

@@ -29,7 +29,8 @@ enum class Field : std::uint8_t {
     line_scratch,              ///< within a pass: two texels by particle of a line (shaders/line.comp)
     nested_rows,               ///< within a pass: a texel by a spring's first particle (shaders/nested.comp)
     nested_boxes,              ///< MethodScheme::nested_table
-    displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end
+    displacement_before,       ///< displacement of the substep before the last, m: second order, and at a frame's end;
+                               ///< of what a collider touched in the last, that of the last
     velocity_excess,           ///< of the same substep: h times the velocity at its end - displacement, m
     end_excess,                ///< at a frame's end: h times the velocity there - displacement, m (end_velocity.h)
     statistics_reference,      ///< xyz: point that positions are summed relative to, m; w: thickness, m

@@ -250,11 +250,9 @@ void run_tether(const TwinPlace& where) {
 
 void run_advance(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const std::vector<vec4>& before =
-        state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before];
+    const std::vector<vec4>& before = where.before();
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
-        state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i]),
-                                                       model.touches ? contact_excess : free_excess));
+        state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i])));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const CompensatedSum advanced =
             compensated_add(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]),

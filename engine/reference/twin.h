@@ -107,6 +107,11 @@ struct TwinPlace {
     const FrameInputs& inputs;
     const std::vector<glsl::PinMotion>& motions;
     TwinContact* contact;  ///< null where no cloths meet
+
+    /// Displacements of the substep before this one, as `before_alias` (solver/step_row.h) finds them.
+    std::vector<glsl::vec4>& before() const {
+        return state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before];
+    }
 };
 
 /// Returns where a cloth's particle lies on the sheet.

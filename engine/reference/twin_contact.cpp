@@ -116,6 +116,13 @@ vec3 led_out(const TwinPlace& where, std::size_t particle, vec3& displacement, v
     return whole;
 }
 
+/// Returns what is kept as the displacement of the substep before that of a particle that is touched.
+vec3 before_touched(const TwinPlace& where, std::size_t particle, vec3 displacement) {
+    if (!where.step.after_impulses) return displacement;
+    const vec4& was = where.contact->before[place_on_sheet(where.step.push<SelfClothPush>(), particle)];
+    return was.w == self_pushed || was.w == self_pushed_and_led ? xyz(was) : displacement;
+}
+
 void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
@@ -157,8 +164,8 @@ void run_collide(const TwinPlace& where) {
             state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
             state[Field::support_grip][i] = on_grip;
         }
+        where.before()[i] = texel(before_touched(where, i, displacement));
         if (model.scheme.second_order) {
-            state[Field::displacement_before][i] = texel(displacement);
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);
         }

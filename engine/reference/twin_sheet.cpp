@@ -69,7 +69,7 @@ void run_self_return(const TwinPlace& where) {
         start = texel(self_start(xyz(start), xyz(meeting->displacements[place]), velocity), start.w);
         state.move_to(i, velocity);
         if (meeting->before[place].w == self_pushed && (model.scheme.second_order || ends_frame)) {
-            vec4& last = state[model.scheme.spare_state ? Field::displacement_spare : Field::displacement_before][i];
+            vec4& last = where.before()[i];
             last = texel(self_changed_alike(xyz(last), xyz(meeting->before[place]), velocity));
         }
         if (!model.scheme.second_order) continue;

@@ -39,7 +39,6 @@ constexpr ConstantRow constant_rows[] = {
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
     {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
-    {"touches", [](Place p) { return p.cloth->model->touches ? 1u : 0u; }},
     {"directions", direction_bits},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},

@@ -5,21 +5,14 @@
 #ifndef DRAPE_END_VELOCITY_H
 #define DRAPE_END_VELOCITY_H
 
-#include "include/vector.h"
 #include "shared/closed_loop_types.h"
 
-/// Largest |e|/|d| with and without anything to touch: a particle that was just stopped must not be taken to rebound.
-const float contact_excess = 0.5f, free_excess = 1e9f;
-
-/// Returns e (m), shortened to `most` times |d|.
-SHARED vec3 end_excess(vec3 displacement, vec3 before, float most) {
+/// Returns e (m); none for what stands still, such as a pin that has stopped. For what a collider has touched, `before`
+/// is what collision.comp kept there, the displacement itself.
+SHARED vec3 end_excess(vec3 displacement, vec3 before) {
     precise vec3 excess = (displacement - before) * 0.5f;
-    precise float size_squared = ordered_dot(excess, excess);
-    precise float limit_squared = (most * most) * ordered_dot(displacement, displacement);
-    if (!(size_squared > limit_squared)) return excess;
-    precise float share = sqrt(limit_squared / size_squared);
-    precise vec3 limited = excess * share;
-    return limited;
+    bool stands = displacement.x == 0.0f && displacement.y == 0.0f && displacement.z == 0.0f;
+    return stands ? vec3(0.0f, 0.0f, 0.0f) : excess;
 }
 
 /// State of a substep of another length that ends at the same place with the same velocity and acceleration.
