@@ -122,7 +122,37 @@ std::string read_file(const std::filesystem::path& path) {
     return std::move(text).str();
 }
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
+namespace {
+
+/// Returns 0, or the reason why not all was written.
+int write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = write(descriptor, text.data(), text.size());
+        if (written >= 0)
+            text.remove_prefix(static_cast<size_t>(written));
+        else if (errno != EINTR)
+            return errno;
+    }
+    return 0;
+}
+
+/// A pipe or a device is written to; to put a file into its place would take it from all others.
+void write_into(const std::filesystem::path& path, std::string_view text) {
+    const FileDescriptor descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    const int error = descriptor ? write_all(descriptor.get(), text) : errno;
+    if (error != 0) throw system_error_at("write", path.string(), error);
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& asked, std::string_view text) {
+    std::error_code unknown;
+    if (const auto there = std::filesystem::status(asked, unknown);
+        std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+        return write_into(asked, text);
+    // A link stays one, to the new file.
+    const bool is_link = std::filesystem::is_symlink(std::filesystem::symlink_status(asked, unknown));
+    const std::filesystem::path path = is_link ? std::filesystem::weakly_canonical(asked, unknown) : asked;
     const std::string beside = fmt::format("{}.tmp-{}", path.string(), getpid());
     FileDescriptor descriptor(open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!descriptor) throw system_error_at("write", path.string(), errno);
@@ -130,13 +160,7 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
         unlink(beside.c_str());
         throw system_error_at("write", path.string(), error);
     };
-    while (!text.empty()) {
-        const ssize_t written = write(descriptor.get(), text.data(), text.size());
-        if (written >= 0)
-            text.remove_prefix(static_cast<size_t>(written));
-        else if (errno != EINTR)
-            fail(errno);
-    }
+    if (const int error = write_all(descriptor.get(), text); error != 0) fail(error);
     if (fsync(descriptor.get()) != 0 || descriptor.close() != 0) fail(errno);
     if (rename(beside.c_str(), path.c_str()) != 0) fail(errno);
 }

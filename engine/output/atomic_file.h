@@ -66,7 +66,8 @@ FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<c
 // Returns the bytes of a whole file anywhere. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);
 
-// Writes a whole file in the same way anywhere in a folder that exists, for results that are not a run's.
+// Writes a whole file in the same way anywhere in a folder that exists, for results that are not a run's. A link stays
+// one to the new file; a pipe or a device is written to.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace drape

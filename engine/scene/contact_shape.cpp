@@ -1,6 +1,7 @@
 #include "scene/contact_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/mesh_shape.h"
@@ -12,6 +13,31 @@ namespace {
 
 /// Returns what a ball's radius lacks to keep triangles out.
 double lift(double radius, double covering) { return std::hypot(radius, covering) - radius; }
+
+double most_growth(const std::array<double, 3>& radii, const std::array<double, 3>& lifted) {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, lifted[k] - radii[k]);
+    return most;
+}
+
+/// Returns radii of an ellipsoid that keeps triangles out of one of these. Scaled by sqrt(1 + c^2/e^2), e its smallest
+/// radius, it does. So does one that contains all points within c of it, as a triangle's corner is that near to any
+/// point of the triangle: by its support function h + c, and 2 c h <= c (h^2/t + t), that has the squared radii
+/// r^2 (1 + c/t) + c^2 + c t, whatever the t. The one that grows the least anywhere is taken, as a flat body would
+/// reach metres beside itself when scaled.
+std::array<double, 3> lifted_radii(const std::array<double, 3>& radii, double c) {
+    const double smallest = std::ranges::min(radii), scale = std::hypot(1, c / smallest);
+    std::array<double, 3> best = radii;
+    for (double& radius : best) radius *= scale;
+    constexpr int tries = 60;
+    for (int k = 0; k <= tries && c > 0; ++k) {
+        const double t = c * std::pow(1000, static_cast<double>(k) / tries);
+        std::array<double, 3> around = radii;
+        for (double& radius : around) radius = std::sqrt(radius * radius * (1 + c / t) + c * (c + t));
+        if (most_growth(radii, around) < most_growth(radii, best)) best = around;
+    }
+    return best;
+}
 
 double grown(double radius, double by, double thickness) { return radius + std::max(0.0, by - thickness); }
 
@@ -28,9 +54,9 @@ struct Grow {
     }
     void operator()(Mesh& mesh) const { mesh.grown = grown(0, lift(mesh.shape->inner_radius(), covering), thickness); }
     void operator()(Ellipsoid& ellipsoid) const {
-        const double smallest = *std::ranges::min_element(ellipsoid.radii);
-        const double share = lift(smallest, covering) / smallest;
-        for (double& radius : ellipsoid.radii) radius = grown(radius, share * radius, thickness);
+        const std::array<double, 3> lifted = lifted_radii(ellipsoid.radii, covering);
+        for (std::size_t k = 0; k < 3; ++k)
+            ellipsoid.radii[k] = grown(ellipsoid.radii[k], lifted[k] - ellipsoid.radii[k], thickness);
     }
 };
 

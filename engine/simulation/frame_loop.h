@@ -150,7 +150,7 @@ class FrameLoop {
         std::unique_ptr<SimulationModel> model;
         Frame frame;  ///< nothing in a lane
     };
-    /// What a slot's submits go through, on the loop's own device or in its lane (loop_device.cpp).
+    /// A slot's submits go through these, on the loop's own device or in its lane (loop_device.cpp).
     void submit_parts(std::uint32_t slot, const LaneWork& work);
     void wait(std::uint32_t slot);
     std::vector<ClothStatistics> statistics_in(std::uint32_t slot, std::uint32_t frame,

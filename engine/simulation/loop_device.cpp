@@ -1,4 +1,4 @@
-// What a frame loop submits goes to a device of its own, or to its lane, where other loops' goes along.
+// A frame loop submits to a device of its own, or to its lane, where other loops' submits go along.
 #include <cstring>
 
 #include "simulation/frame_loop.h"
@@ -28,7 +28,7 @@ void FrameLoop::submit_parts(std::uint32_t slot, const LaneWork& work) {
     slots_.submit(slot, all);
 }
 
-/// Of frames it hands out those that it does not simulate: a closed loop's.
+/// A closed loop hands out frames that it has simulated before.
 void FrameLoop::submit_in_lane(std::uint32_t slot, std::uint32_t frame, FrameKind kind, bool output) {
     LaneWork work{.parts = {{needs(kind).statistics ? LanePart::Kind::statistics : LanePart::Kind::look}},
                   .frame = frame,

@@ -34,15 +34,15 @@ struct LanePart {
     auto operator<=>(const LanePart&) const = default;
 };
 
-/// What a loop submits: loops that want the same parts take them together, each of its own frame.
+/// A submit of a loop: loops that want the same parts take them together, each of its own frame.
 struct LaneWork {
     std::vector<LanePart> parts;
     std::uint32_t frame = 0;
-    const SimulationModel* run = nullptr;         ///< at the substeps of the frame; inputs are its
+    const SimulationModel* run = nullptr;           ///< at the substeps of the frame; inputs are its
     std::vector<glsl::SubstepChange> changes = {};  ///< by cloth, where a part changes them
 };
 
-/// What a submit leaves, until the slot is submitted again.
+/// The results of a submit, until the slot is submitted again.
 struct LaneResult {
     std::vector<glsl::StatisticsRecord> statistics;  ///< by cloth
     std::vector<double> differences;                 ///< by cloth, m

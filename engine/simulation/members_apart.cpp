@@ -83,6 +83,7 @@ class MembersApart : public MemberRuns {
             transfer(reader, numbers[i]);
             state.erase(frame_part);
             loops_[numbers[i]]->restore(state);
+            over_[numbers[i]] = 0;
         }
     }
 
@@ -200,8 +201,8 @@ class MembersApart : public MemberRuns {
 
 void check_lane_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options) {
     const std::vector<const SimulationModel*> models{&two[0]->model, &two[1]->model};
-    const bool share = models[0]->scene.solver.method == models[1]->scene.solver.method &&
-                       LaneServer::fits(device, models, options);
+    const bool share =
+        models[0]->scene.solver.method == models[1]->scene.solver.method && LaneServer::fits(device, models, options);
     if (share) check_bytes(device, LaneServer(device, models, options).bytes_each(), count);
 }
 

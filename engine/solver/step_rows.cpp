@@ -151,8 +151,8 @@ std::string collider_edges_alias(Place p, std::string_view name, bool written) {
 using Variants = std::vector<VariantRow>;
 
 // clang-format off: every kernel is a line.
-/// Returns the rows by StepKind up to bending, then those up to contact between cloths: label, kernels, push constants,
-/// turn, aliases.
+/// Returns the rows by StepKind up to springs one by one, then those up to contact between cloths: label, kernels, push
+/// constants, turn, aliases.
 std::vector<StepRow> first_rows() {
     using enum Kernel;
     const Variants none, masked_only{{"masked", masked}}, cut{{"masked", masked}, {"buffered", buffered}},
@@ -161,7 +161,8 @@ std::vector<StepRow> first_rows() {
         force{{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
         explicit_step{{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
         order{{"second_order", second_order}}, all_twist{{"masked", masked}, {"second_order", second_order}},
-        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}};
+        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}},
+        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}};
     return {
         {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", none, over_particles}}, stiffness_push},
         {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
@@ -186,6 +187,12 @@ std::vector<StepRow> first_rows() {
           {twist_tile, "twist_tile.comp", all_twist, over_tiles}},
          nullptr,
          turns_displacement},
+        {StepKind::spring,
+         spring_label,
+         {{plain, "spring.comp", spring, over_springs}},
+         spring_push,
+         nullptr,
+         tension_alias<glsl::SpringPush>},
     };
 }
 
@@ -193,7 +200,6 @@ std::vector<StepRow> other_rows() {
     using enum Kernel;
     const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
         edges{{"masked", masked}, {"meshes", meets_meshes}, {"buffered", collides_buffered}},
-        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}},
         springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
         line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, reduced{{"masked", masked}, {"bent", bends}},
         nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
@@ -204,12 +210,6 @@ std::vector<StepRow> other_rows() {
                 {"excess", keeps_excess},
                 {"buffered", buffered}};
     return {
-        {StepKind::spring,
-         spring_label,
-         {{plain, "spring.comp", spring, over_springs}},
-         spring_push,
-         nullptr,
-         tension_alias<glsl::SpringPush>},
         {StepKind::all_springs,
          "all springs",
          {{spring_stream, "spring_stream.comp", springs, over_spring_stream},

@@ -150,7 +150,7 @@ TEST_F(EnsembleContactTest, ResetAndRestoredMembersGoOnToTheSameBits) {
     expect_reset_and_restored(members);
 }
 
-/// What is saved where pairs press on each other has what they bear.
+/// A state saved where pairs press on each other has what they bear.
 TEST_F(EnsembleContactTest, StatesSavedInContactGoOnToTheSameBits) {
     const auto members = folded(3);
     Ensemble ensemble(members, {}, library_device());
@@ -197,7 +197,7 @@ TEST_F(EnsembleContactTest, TheNumberOfPassesIsThatOfTwoMembers) {
     EXPECT_EQ(many.pass_count(), two.pass_count());
 }
 
-/// Clothes that start through each other are led apart, in some members alone.
+/// Cloths that start through each other are led apart, in some members alone.
 TEST_F(EnsembleContactTest, MembersThatStartCrossedShareNothing) {
     std::vector<SceneDescription> members = folded(3);
     for (SceneDescription& member : members) {

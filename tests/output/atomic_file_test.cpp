@@ -1,9 +1,13 @@
 #include "output/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <random>
@@ -130,6 +134,26 @@ TEST(AtomicFile, NoFileIsTornWhenTheWriterIsKilled) {
     }
     EXPECT_GE(finished_count, 20u);
     EXPECT_GT(temporary_count, 0u) << "no round hit a file being written, so the test showed nothing";
+}
+
+TEST(AtomicFile, PipesAreWrittenToAndLinksStayLinks) {
+    const TemporaryFolder temporary;
+    const std::filesystem::path pipe = temporary / "pipe", link = temporary / "link", target = temporary / "target";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0666), 0);
+    const FileDescriptor reader(open(pipe.c_str(), O_RDWR | O_CLOEXEC));
+    write_file(pipe, "report");
+    std::array<char, 7> got{};
+    ASSERT_EQ(read(reader.get(), got.data(), got.size()), 6);
+    EXPECT_STREQ(got.data(), "report");
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    std::filesystem::create_symlink("target", link);
+    for (const char* text : {"first", "second"}) {
+        write_file(link, text);
+        EXPECT_TRUE(std::filesystem::is_symlink(link));
+        EXPECT_EQ(read_text(target), text);
+    }
+    EXPECT_THROW(write_file(temporary.path(), "of a folder"), OutputError);
+    EXPECT_THAT(names_in(temporary.path()), ElementsAre("link", "pipe", "target"));
 }
 
 }  // namespace

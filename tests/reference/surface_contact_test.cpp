@@ -258,6 +258,7 @@ TEST(SurfaceContactTest, NoTriangleOfACellReachesInWhileItsCornersAreOutsideOfWh
         {"tapered capsule", Capsule{{0, -0.3, 0}, {0, 0.3, 0}, {0.2, 0.08}}},
         {"ellipsoid", Ellipsoid{{}, {0.5, 0.3, 0.2}}},
         {"flat ellipsoid", Ellipsoid{{}, {0.4, 0.08, 0.4}}},
+        {"plate", Ellipsoid{{}, {0.3, 0.005, 0.3}}},
         {"needle", Ellipsoid{{}, {0.5, 0.06, 0.05}}}};
     for (const auto& [name, shape] : shapes)
         for (const std::array<double, 2> size : {std::array{1.0, 1.0}, {1.5, 0.5}}) {
@@ -269,6 +270,20 @@ TEST(SurfaceContactTest, NoTriangleOfACellReachesInWhileItsCornersAreOutsideOfWh
             EXPECT_LE(deepest, 1e-9) << name;
             EXPECT_GT(deepest, -0.1) << name << ": kept farther than it must be";
         }
+}
+
+/// Cloth beside a thin body must not come to lie on what is kept free around it.
+TEST(SurfaceContactTest, ThinBodiesAreKeptFreeForAboutACell) {
+    Cloth cloth;
+    cloth.thickness = 0;
+    cloth.grid = {17, 17};
+    cloth.size = {0.8, 0.8};
+    const double cell = std::hypot(0.05, 0.05);
+    for (const Vec3& radii : {Vec3{0.3, 0.005, 0.3}, Vec3{0.3, 0.02, 0.3}, Vec3{0.3, 0.004, 0.004}, Vec3{1, 1e-4, 2}}) {
+        const Collider kept = contact_shape(cloth, Collider{Ellipsoid{{}, radii}});
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_LE(std::get<Ellipsoid>(kept.shape).radii[k], radii[k] + std::max(2 * cell, 0.2 * radii[k])) << k;
+    }
 }
 
 TEST(SurfaceContactTest, ThicknessThatIsEnoughChangesNothing) {

@@ -89,7 +89,8 @@ class Ensemble {
     const std::optional<FrameFailure>& failure(std::size_t member) const;
     /// Returns the statistics of a member's cloths.
     const std::vector<ClothStatistics>& statistics(std::size_t member) const;
-    /// Returns the work that a member's frame took; where members share dispatches its substeps alone.
+    /// Returns the work that a member's frame took; by methods with fixed substeps that share dispatches its substeps
+    /// alone.
     const FrameEffort& effort(std::size_t member) const;
     MemberArray positions(std::size_t cloth) const;   ///< x y z, m, and w: relative inverse mass, 0: held
     MemberArray velocities(std::size_t cloth) const;  ///< x y z, m/s, at the frames' ends
