@@ -150,9 +150,10 @@ void write_file(const std::filesystem::path& asked, std::string_view text) {
     if (const auto there = std::filesystem::status(asked, unknown);
         std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
         return write_into(asked, text);
-    // A link stays one, to the new file.
-    const bool is_link = std::filesystem::is_symlink(std::filesystem::symlink_status(asked, unknown));
-    const std::filesystem::path path = is_link ? std::filesystem::weakly_canonical(asked, unknown) : asked;
+    // A link stays one, to the new file, which need not have been there.
+    std::filesystem::path path = asked;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(path, unknown); ++links)
+        path = path.parent_path() / std::filesystem::read_symlink(path, unknown);
     const std::string beside = fmt::format("{}.tmp-{}", path.string(), getpid());
     FileDescriptor descriptor(open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!descriptor) throw system_error_at("write", path.string(), errno);
