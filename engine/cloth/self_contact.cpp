@@ -218,7 +218,8 @@ void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<Clo
 
 std::size_t SelfContact::member_of(glsl::ivec2 texel) const {
     const int across = push.grid.x / push.member_size.x;
-    return static_cast<std::size_t>(texel.y / push.member_size.y * across + texel.x / push.member_size.x);
+    const int member = texel.y / push.member_size.y * across + texel.x / push.member_size.x;
+    return static_cast<std::size_t>(member);
 }
 
 std::vector<int> SelfContact::owners() const {

@@ -1,13 +1,13 @@
 // The device as a frame loop sees it that shares its dispatches with others: each loop is about one member of an
-// ensemble, and what several ask for alike is done at once (members_in_lanes.cpp).
+// ensemble, and what several ask for alike is done at once (lane_server.h).
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "cloth/simulation_model.h"
@@ -31,7 +31,9 @@ struct LanePart {
     StateSet set = StateSet::run;
     AttemptStep step = AttemptStep::keep;
     std::uint32_t substeps = 0;
-    auto operator<=>(const LanePart&) const = default;
+    bool operator<(const LanePart& other) const {
+        return std::tie(kind, set, step, substeps) < std::tie(other.kind, other.set, other.step, other.substeps);
+    }
 };
 
 /// A submit of a loop: loops that want the same parts take them together, each of its own frame.

@@ -151,10 +151,11 @@ class MembersApart : public MemberRuns {
             else
                 simulate(number);
         }
-        for (const auto& [server, seated] : by_server) {
+        for (const auto& served : by_server) {
+            const std::map<std::size_t, std::size_t>& seated = served.second;
             std::vector<std::size_t> places;
             for (const auto& [place, number] : seated) places.push_back(place);
-            server->serve(places, [&](std::size_t place) { simulate(seated.at(place)); });
+            served.first->serve(places, [&](std::size_t place) { simulate(seated.at(place)); });
         }
     }
 

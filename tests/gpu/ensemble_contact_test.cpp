@@ -18,7 +18,6 @@ using test::library_device;
 using test::of_member;
 using test::same_bytes;
 using test::scene_of;
-using testing::HasSubstr;
 using EnsembleContactTest = test::LibraryTest;
 
 constexpr std::uint32_t seed = 77;

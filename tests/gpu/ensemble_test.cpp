@@ -73,7 +73,7 @@ TEST_F(EnsembleTest, OfGivenStartsAndMaps) {
     std::vector<SceneDescription> members = drawn(scene, 4, seed);
     for (std::size_t k = 0; k < members.size(); ++k)
         for (std::uint32_t i = 0; i < cloth.grid[0] * cloth.grid[1]; ++i) {
-            const double column = i % cloth.grid[0], row = i / cloth.grid[0];
+            const std::uint32_t column = i % cloth.grid[0], row = i / cloth.grid[0];
             members[k].cloths[0].start.push_back(
                 {0.04 * column - 0.4, 1.2 - 0.04 * row, 0.02 * std::sin(0.5 * column + static_cast<double>(k))});
         }
