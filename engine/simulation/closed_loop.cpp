@@ -53,9 +53,7 @@ void FrameLoop::submit_run(std::uint32_t slot, const Run& run, const Attempt& at
     LaneWork work{.frame = run.frame,
                   .run = rung(run.substeps).model.get(),
                   .changes = substep_changes(model_, state_substeps_, run.substeps)};
-    const auto add = [&](AttemptStep step) {
-        work.parts.push_back({LanePart::Kind::attempt, StateSet::run, step});
-    };
+    const auto add = [&](AttemptStep step) { work.parts.push_back({LanePart::Kind::attempt, StateSet::run, step}); };
     if (run.before) add(*run.before);
     if (run.begins && run.substeps != state_substeps_) add(AttemptStep::change_substep);
     work.parts.push_back({LanePart::Kind::substeps, StateSet::run, {}, run.substeps});

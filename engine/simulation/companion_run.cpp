@@ -19,9 +19,8 @@ FrameLoop::Frame FrameLoop::build_beside(const SimulationModel& run, StateSet se
 
 void FrameLoop::submit_beside(StateSet set, std::uint32_t slot, std::uint32_t frame, std::uint32_t substeps) {
     const std::uint32_t before = beside_substeps_[static_cast<std::size_t>(set)];
-    LaneWork work{.frame = frame,
-                  .run = rung(substeps, set).model.get(),
-                  .changes = substep_changes(model_, before, substeps)};
+    LaneWork work{
+        .frame = frame, .run = rung(substeps, set).model.get(), .changes = substep_changes(model_, before, substeps)};
     if (model_.self_contact) work.parts.push_back({LanePart::Kind::attempt, set, AttemptStep::keep});
     if (substeps != before) work.parts.push_back({LanePart::Kind::attempt, set, AttemptStep::change_substep});
     work.parts.push_back({LanePart::Kind::substeps, set, {}, substeps});

@@ -79,7 +79,7 @@ struct Ensemble::Parts {
         if (acts && members.front()->model.closed_loop())
             throw Error(
                 "method auto does frames again, with those before them, and cannot be given actions: name a method");
-        const auto make_runs = obstacle                                ? run_apart
+        const auto make_runs = obstacle                               ? run_apart
                                : members.front()->model.closed_loop() ? run_in_lanes
                                                                       : run_together;
         runs = make_runs(given.parts_->device, members, run_options());

@@ -80,8 +80,7 @@ LaneServer::LaneServer(const vulkan::Device& device, const std::vector<const Sim
       inputs_(models.size()),
       answered_(models.size()),
       waiting_(models.size()) {
-    for (std::size_t place = 0; place < models.size(); ++place)
-        lanes_.push_back(std::make_unique<Lane>(*this, place));
+    for (std::size_t place = 0; place < models.size(); ++place) lanes_.push_back(std::make_unique<Lane>(*this, place));
     plan_looks();
     plan_attempts();
     for (std::size_t k = 0; k < state_set_count; ++k)
@@ -160,8 +159,8 @@ std::vector<std::pair<const graph::Graph*, const graph::Plan*>> LaneServer::plan
 }
 
 void LaneServer::record(Planned& planned) const {
-    planned.recorded = std::make_unique<graph::RecordedPlan>(planned.graph, planned.plan, *pool_,
-                                                             graph::TimestampMode::none);
+    planned.recorded =
+        std::make_unique<graph::RecordedPlan>(planned.graph, planned.plan, *pool_, graph::TimestampMode::none);
 }
 
 void LaneServer::allocate() {
@@ -286,7 +285,8 @@ void LaneServer::write_frame(const std::vector<std::size_t>& places, std::uint32
     solver_.write_constants(*pool_, device_slot, substeps);
 }
 
-/// The statistics of a frame that was not simulated look for colliders where the last substep of the joint run has them.
+/// The statistics of a frame that was not simulated look for colliders where the last substep of the joint run has
+/// them.
 void LaneServer::write_look(const std::vector<std::size_t>& places) {
     const std::uint32_t substeps = all_.scene.solver.substeps;
     for (std::size_t place = 0; place < models_.size(); ++place) fill(*models_[place], substeps, inputs_[place]);
@@ -327,9 +327,7 @@ void LaneServer::hand_out(const LaneWork& first, const std::vector<std::size_t>&
             if (what != "normal" || options_.normals) arrays[what] = solver_.readback(*pool_, device_slot, what);
     for (const std::size_t place : places) {
         LaneResult& result = lanes_[place]->result_in(waiting_[place].slot);
-        const auto own = [&](const auto& all) {
-            return std::span(all).subspan(place * cloths_each_, cloths_each_);
-        };
+        const auto own = [&](const auto& all) { return std::span(all).subspan(place * cloths_each_, cloths_each_); };
         result = {};
         if (counts)
             for (const std::span<const std::byte> bytes : own(records))
@@ -378,7 +376,8 @@ void LaneServer::reset(std::size_t place) {
     std::map<std::size_t, const ClothBytes*> starts;
     for (std::size_t cloth = 0; cloth < cloths_each_; ++cloth) starts[place * cloths_each_ + cloth] = nullptr;
     for (std::size_t set = 0; set < state_set_count; ++set)
-        if (has_set(all_, static_cast<StateSet>(set))) solver_.upload_cloths(*pool_, starts, static_cast<StateSet>(set));
+        if (has_set(all_, static_cast<StateSet>(set)))
+            solver_.upload_cloths(*pool_, starts, static_cast<StateSet>(set));
 }
 
 }  // namespace drape

@@ -70,8 +70,7 @@ bool FrameLoop::take_host_state(std::span<const std::byte> bytes) {
 
 SimulationState FrameLoop::save() const {
     SimulationState state;
-    for (auto& [name, bytes] : device_state())
-        state[std::string(field_prefix) + name] = std::move(bytes);
+    for (auto& [name, bytes] : device_state()) state[std::string(field_prefix) + name] = std::move(bytes);
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
         const CutTopology& topology = solver_.topologies()[cloth];
         if (model_.scene.comes_apart() && topology.masked())

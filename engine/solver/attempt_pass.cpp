@@ -31,8 +31,9 @@ void add_copies_of_present(graph::Graph& graph, Pipelines& pipelines, ClothState
                            std::vector<Copy>& copies) {
     for (Copy& copy : copies) {
         const VkFormat format = declaration_of(graph, copy.from).format;
-        const vulkan::ComputePipeline& pipeline = pipelines.get(vulkan::variant_name(
-            "copy_state.comp", {{"scalar", format == VK_FORMAT_R32_SFLOAT}, {"integer", format == VK_FORMAT_R32_UINT}}));
+        const vulkan::ComputePipeline& pipeline =
+            pipelines.get(vulkan::variant_name("copy_state.comp", {{"scalar", format == VK_FORMAT_R32_SFLOAT},
+                                                                   {"integer", format == VK_FORMAT_R32_UINT}}));
         const std::uint32_t height = copy.height / state.count();
         const glsl::GridPush push{{static_cast<int>(copy.width), static_cast<int>(height)}};
         add_compute_pass(graph, state.pass_name(name, "judge"), pipeline, push, {copy.width, height, state.count()},

@@ -178,8 +178,8 @@ std::vector<ClothBytes> ClothSolver::download_cloths(const graph::ResourcePool& 
     return states;
 }
 
-void ClothSolver::upload_cloths(const graph::ResourcePool& pool,
-                                const std::map<std::size_t, const ClothBytes*>& states, StateSet of_set) const {
+void ClothSolver::upload_cloths(const graph::ResourcePool& pool, const std::map<std::size_t, const ClothBytes*>& states,
+                                StateSet of_set) const {
     std::vector<vulkan::RowsOfImage> uploads;
     for_state_images(
         pool, [&](const vulkan::Image& image, const FieldRow& row, StateSet set, std::span<const std::size_t> cloths) {
