@@ -40,9 +40,8 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
         if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
             self_contact_->last_crossed = 0;
     }
-    if (options_.lane) return;
-    build_graphs();
-    if (options_.next_elsewhere) return;
+    if (options_.plans) build_graphs();
+    if (options_.lane || options_.next_elsewhere) return;
     allocate_and_record();
     upload();
 }

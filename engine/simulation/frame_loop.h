@@ -54,6 +54,7 @@ struct FrameLoopOptions : PictureOptions {
     /// The loop's device; null: it has one of its own. A loop in a lane draws nothing, and its cloths meet nothing of
     /// cloth and stay whole.
     LoopLane* lane = nullptr;
+    bool plans = true;                    ///< false: nobody asks for the plans of a loop in a lane
     std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
     graph::BarrierFilter barrier_filter;  ///< canary tests only
 };

@@ -132,7 +132,10 @@ class MembersApart : public MemberRuns {
     }
     void make_loop(std::size_t number) {
         FrameLoopOptions options = loop_options_;
-        if (const Seat& seat = lanes_[number]; seat.server) options.lane = &seat.server->lane(seat.place);
+        if (const Seat& seat = lanes_[number]; seat.server) {
+            options.lane = &seat.server->lane(seat.place);
+            options.plans = false;
+        }
         loops_[number] = std::make_unique<FrameLoop>(device_, members_[number]->model, options);
     }
     std::vector<std::size_t> all_numbers() const {

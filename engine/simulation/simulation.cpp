@@ -93,7 +93,8 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
-    if (wanted.member) options.next_elsewhere = [member = *wanted.member] { return member.run->next(member.number); };
+    if (wanted.member && !(options.lane = wanted.member->run->lane(wanted.member->number)))
+        options.next_elsewhere = [member = *wanted.member] { return member.run->next(member.number); };
     if (wanted.on_cut)
         options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
             const CutCounts& counts = event.counts;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -95,6 +96,32 @@ TEST_F(Sweep, RunsThatGoOnTogetherHaveTheBytesOfEachAlone) {
         EXPECT_EQ(file("together" + name + "/positions.npz"), file("alone" + name + "/positions.npz")) << run;
         EXPECT_EQ(lasting_manifest(folder / ("together" + name)), lasting_manifest(folder / ("alone" + name))) << run;
     }
+}
+
+/// Each keeps the substeps that it needs, and where that does not help it is refused as alone.
+TEST_F(Sweep, RunsByMethodAutoThatGoOnTogetherHaveTheBytesOfEachAlone) {
+    write_text(folder / "spec.json",
+               R"({"scene": "scene.json", "seed": 7, "count": 12, "set": {"/solver": {"method": "auto"}},
+        "vary": {"/time/frames": {"grid": [5, 9]}, "/gravity/1": {"grid": [-9.81, -1e3, -1e6]},
+                 "/cloths/0/areal_density": {"uniform": [0.1, 0.4]},
+                 "/cloths/0/stiffness/stretch": {"uniform": [300, 900]}}})");
+    const Outcome together = sweep({"--index", "0-11"}, "together");
+    EXPECT_EQ(together.code, 9) << together.err;
+    EXPECT_THAT(together.err, HasSubstr("run 4: the tolerance is missed"));
+    for (int index = 0; index < 12; ++index)
+        EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, index % 6 < 4 ? 0 : 8) << index;
+    for (const char* output : {"together", "alone"}) EXPECT_EQ(sweep({"--collect", "-q"}, output).code, 9);
+    EXPECT_EQ(results("together"), results("alone"));
+    EXPECT_THAT(results("together")[5], HasSubstr("4,tolerance,8,"));
+    std::set<std::string> substeps;
+    for (int index = 0; index < 12; ++index) {
+        const std::string name = fmt::format("/runs/{:04}", index);
+        EXPECT_EQ(file("together" + name + "/positions.npz"), file("alone" + name + "/positions.npz")) << index;
+        const Json::Value manifest = lasting_manifest(folder / ("together" + name));
+        EXPECT_EQ(manifest, lasting_manifest(folder / ("alone" + name))) << index;
+        if (index % 6 < 4) substeps.insert(manifest["statistics"][4]["substeps"].asString());
+    }
+    EXPECT_GT(substeps.size(), 1u);
 }
 
 /// It is not known which of several runs ended their process: all of them are made again, alone.

@@ -23,9 +23,10 @@ class Groups : public testing::Test, public TemporaryFolder {
         run.request.formats = {"npz"};
         return run;
     }
-    static std::vector<std::vector<std::uint32_t>> indices_of(std::vector<GroupedRun> runs) {
+    static std::vector<std::vector<std::uint32_t>> indices_of(std::vector<GroupedRun> runs,
+                                                              DeviceKind device = DeviceKind::cpu) {
         std::vector<std::vector<std::uint32_t>> indices;
-        for (const std::vector<GroupedRun>& group : groups_of(std::move(runs))) {
+        for (const std::vector<GroupedRun>& group : groups_of(std::move(runs), device)) {
             indices.emplace_back();
             for (const GroupedRun& run : group) indices.back().push_back(run.index);
         }
@@ -43,9 +44,32 @@ TEST_F(Groups, AreOfRunsThatAreNoNeighbours) {
 }
 
 TEST_F(Groups, LeaveAloneWhatCannotShare) {
-    EXPECT_EQ(indices_of({run(0, "/cloths/0/damping=-1"), run(1, "/cloths/0/damping=1"), run(2, "/solver/method=auto"),
-                          run(3, "/cloths/0/damping=2"), run(4, "/solver/method=auto")}),
+    EXPECT_EQ(indices_of({run(0, "/cloths/0/damping=-1"), run(1, "/cloths/0/damping=1"), run(2, "/cloths/0/tear={}"),
+                          run(3, "/cloths/0/damping=2"), run(4, "/cloths/0/tear={}")}),
               (Lists{{0}, {1, 3}, {2}, {4}}));
+}
+
+/// On a CPU a dispatch costs little beside the work on a large cloth, and members by `auto` wait for each other.
+TEST_F(Groups, OfMethodAutoAreOfSmallClothsOnACpu) {
+    for (const auto& [grid, device, together] : {std::tuple{"[24, 24]", DeviceKind::cpu, true},
+                                                 {"[24, 25]", DeviceKind::cpu, false},
+                                                 {"[24, 25]", DeviceKind::gpu, true}}) {
+        std::vector<GroupedRun> runs;
+        for (const std::uint32_t index : {0, 1}) {
+            runs.push_back(run(index, fmt::format("/cloths/0/grid={}", grid)));
+            runs.back().request.scene.overrides.push_back(R"(/solver={"method": "auto"})");
+        }
+        EXPECT_EQ(indices_of(runs, device), (together ? Lists{{0, 1}} : Lists{{0}, {1}})) << grid;
+    }
+}
+
+TEST_F(Groups, OfMethodAutoAreOfThoseForWhichItChoosesTheSame) {
+    std::vector<GroupedRun> runs;
+    for (const auto& [index, stretch] : {std::pair{0u, "1"}, {1u, "100000"}, {2u, "2"}, {3u, "200000"}}) {
+        runs.push_back(run(index, R"(/solver={"method": "auto"})"));
+        runs.back().request.scene.overrides.push_back(fmt::format("/cloths/0/stiffness/stretch={}", stretch));
+    }
+    EXPECT_EQ(indices_of(runs), (Lists{{0, 2}, {1, 3}}));
 }
 
 TEST_F(Groups, HaveAMostAndTheNextOfTheShapeBeginAnother) {

@@ -90,6 +90,10 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     return request;
 }
 
+DeviceKind device_kind_of(const SweepOptions& options) {
+    return Device(options.device()).info().type == "cpu" ? DeviceKind::cpu : DeviceKind::gpu;
+}
+
 /// Makes runs here and writes their records.
 class RunsHere {
   public:
@@ -122,7 +126,8 @@ class RunsHere {
             else
                 runs.push_back({index, request_of(options_, spec_, folder_, index)});
         }
-        std::vector<std::vector<sweep::GroupedRun>> groups = sweep::groups_of(std::move(runs));
+        std::vector<std::vector<sweep::GroupedRun>> groups =
+            sweep::groups_of(std::move(runs), device_kind_of(options_));
         for (std::vector<sweep::GroupedRun>& group : groups)
             for (sweep::GroupedRun& run : group)
                 if (several())
@@ -242,9 +247,8 @@ ExitCode conclude(const SweepOptions& options, const sweep::SweepFolder& folder)
 
 /// Returns how many runs a process makes, where they go on together. On a CPU more than some gain nothing, and their
 /// files come late; a GPU has room for many, and a process for each core keeps it fed.
-std::size_t group_size(const SweepOptions& options, std::size_t runs, std::size_t processes) {
-    const bool on_cpu = Device(options.device()).info().type == "cpu";
-    const std::size_t most = on_cpu ? 16 : sweep::most_grouped;
+std::size_t group_size(DeviceKind device, std::size_t runs, std::size_t processes) {
+    const std::size_t most = device == DeviceKind::cpu ? 16 : sweep::most_grouped;
     return std::clamp<std::size_t>((runs + processes - 1) / processes, 1, most);
 }
 
@@ -265,8 +269,9 @@ ExitCode run_all(const SweepOptions& options, const sweep::SweepSpec& spec, cons
     std::vector<std::uint32_t> missing;
     for (std::uint32_t index = 0; index < spec.count; ++index)
         if (!folder.record(index)) missing.push_back(index);
-    runs.groups = shares_of(missing, sweep::can_be_grouped(request_of(options, spec, folder, good))
-                                         ? group_size(options, missing.size(), runs.processes)
+    const DeviceKind device = device_kind_of(options);
+    runs.groups = shares_of(missing, sweep::can_be_grouped(request_of(options, spec, folder, good), device)
+                                         ? group_size(device, missing.size(), runs.processes)
                                          : 1);
     // Where every core has a run, a driver's own threads would only be in the way.
     if (runs.processes > 1) setenv("LP_NUM_THREADS", "0", 0);

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "cloth/members.h"
 #include "drape/ensemble.h"
@@ -14,48 +13,51 @@ namespace {
 /// Cloths of more particles are simulated one by one (cloth/together.cpp), which a process each does as well.
 constexpr std::uint64_t most_particles = 128 * 128;
 
-bool gains(const SceneDescription& scene) {
+/// Method `auto` takes those of many members together that need the same substeps: on a CPU smaller cloths gain by it.
+constexpr std::uint64_t most_particles_by_auto_on_cpu = 24 * 24;
+
+/// Scenes of one shape (cloth/members.h) for which the same method is used go on together.
+struct GroupShape {
+    SceneDescription scene;
+    SolverMethod method;
+};
+
+/// Returns the shape of a scene that gains by going on with others.
+std::optional<GroupShape> shape_of(const SceneDescription& scene, DeviceKind device) {
+    const bool is_closed = scene.solver.method == SolverMethod::automatic;
+    const std::uint64_t most = is_closed && device == DeviceKind::cpu ? most_particles_by_auto_on_cpu : most_particles;
     for (const Cloth& cloth : scene.cloths)
-        if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) return false;
-    if (scene.solver.method == SolverMethod::automatic) return false;
+        if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most) return std::nullopt;
     // A run proves of its own cloths that they did not cross, which members together do not.
-    const SimulationModel model(scene);
-    return !model.self_contact && !sharing_obstacle(model);
+    const SimulationModel model(scene, {.device = device});
+    if (model.self_contact || sharing_obstacle(model)) return std::nullopt;
+    return GroupShape{scene, model.scene.solver.method};
 }
 
-/// Leaves the ensemble when its run is over, however that ended.
-class Membership {
-  public:
-    explicit Membership(EnsembleMember member) : member_(std::move(member)) {}
-    ~Membership() { member_.run->leave(member_.number); }
-    Membership(const Membership&) = delete;
-    Membership& operator=(const Membership&) = delete;
-
-  private:
-    EnsembleMember member_;
-};
+bool alike(const GroupShape& first, const GroupShape& other) {
+    return first.method == other.method && !shape_difference(first.scene, other.scene);
+}
 
 }  // namespace
 
-bool can_be_grouped(const RunRequest& request) { return !request.draws() && gains(asked_scene(request.scene)); }
+bool can_be_grouped(const RunRequest& request, DeviceKind device) {
+    return !request.draws() && shape_of(asked_scene(request.scene), device);
+}
 
-std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs) {
+std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, DeviceKind device) {
     std::vector<std::vector<GroupedRun>> groups;
-    std::vector<std::optional<SceneDescription>> shapes;  // by group; nothing: its run goes on alone
+    std::vector<std::optional<GroupShape>> shapes;  // by group; nothing: its run goes on alone
     for (GroupedRun& run : runs) {
-        std::optional<SceneDescription> scene;
+        std::optional<GroupShape> shape;
         try {
-            scene = asked_scene(run.request.scene);
-            if (run.request.draws() || !gains(*scene)) scene.reset();
+            if (!run.request.draws()) shape = shape_of(asked_scene(run.request.scene), device);
         } catch (const Error&) {  // the run tells of it
         }
-        std::size_t k = scene ? 0 : groups.size();
-        while (k < groups.size() &&
-               (!shapes[k] || groups[k].size() == most_grouped || shape_difference(*shapes[k], *scene)))
-            ++k;
+        std::size_t k = shape ? 0 : groups.size();
+        while (k < groups.size() && (!shapes[k] || groups[k].size() == most_grouped || !alike(*shapes[k], *shape))) ++k;
         if (k == groups.size()) {
             groups.emplace_back();
-            shapes.push_back(std::move(scene));
+            shapes.push_back(std::move(shape));
         }
         groups[k].push_back(std::move(run));
     }
@@ -67,25 +69,20 @@ void run_group(const std::vector<GroupedRun>& group, const std::function<void(co
     for (const GroupedRun& run : group) scenes.push_back(asked_scene(run.request.scene));
     const RunRequest& first = group.front().request;
     const Device device = device_of(first.scene, scenes.front(), false);
-    EnsembleOptions options;
-    options.kernels = first.scene.kernels;
-    const auto shared = std::make_shared<EnsembleRun>(Ensemble(scenes, options, device));
+    const auto shared = std::make_shared<EnsembleRun>(scenes, first.scene.kernels, device);
     std::mutex mutex;
-    std::vector<std::jthread> threads;
-    for (std::size_t number = 0; number < group.size(); ++number)
-        threads.emplace_back([&, number] {
-            GroupedEnd end{group[number].index, false, nullptr};
-            try {
-                const Membership membership({shared, number});
-                RunRequest request = group[number].request;
-                request.shared = {device, {shared, number}};
-                end.complete = run_scene(request).complete;
-            } catch (...) {
-                end.failure = std::current_exception();
-            }
-            const std::scoped_lock lock(mutex);
-            ended(end);
-        });
+    shared->run([&](std::size_t number) {
+        GroupedEnd end{group[number].index, false, nullptr};
+        try {
+            RunRequest request = group[number].request;
+            request.shared = {device, {shared, number}};
+            end.complete = run_scene(request).complete;
+        } catch (...) {
+            end.failure = std::current_exception();
+        }
+        const std::scoped_lock lock(mutex);
+        ended(end);
+    });
 }
 
 }  // namespace drape::sweep

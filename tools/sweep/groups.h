@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "cloth/device_costs.h"
 #include "run/run.h"
 
 namespace drape::sweep {
@@ -18,12 +19,12 @@ struct GroupedRun {
 /// A group has at most so many runs, each of which has a thread.
 inline constexpr std::size_t most_grouped = 256;
 
-/// Returns whether runs of this scene can share dispatches, and gain by it: its method is named, its cloth neither
-/// meets itself nor is cut nor fills a device alone, and no file has pictures.
-bool can_be_grouped(const RunRequest& request);
+/// Returns whether runs of this scene can share dispatches on such a device, and gain by it: its cloth neither meets
+/// itself nor is cut nor fills the device alone, and no file has pictures.
+bool can_be_grouped(const RunRequest& request, DeviceKind device);
 
 /// Returns the runs in lists of those that go on together, in order. One that goes on alone is in a list of its own.
-std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs);
+std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, DeviceKind device);
 
 /// The end of a run: complete, stopped, or failed.
 struct GroupedEnd {

@@ -53,6 +53,7 @@ class Device {
   private:
     friend class Simulation;
     friend class Ensemble;
+    friend class EnsembleRun;
     struct Parts;
     std::shared_ptr<Parts> parts_;
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -110,21 +111,30 @@ class Ensemble {
     std::unique_ptr<Parts> parts_;
 };
 
-/// Frames of an ensemble for simulations that have a thread each (SimulationOptions::member): all of them go on
-/// together.
+class LoopLane;
+
+/// Simulations that go on together, each of a scene of its own on a thread of its own (SimulationOptions::member).
 class EnsembleRun {
   public:
-    explicit EnsembleRun(Ensemble ensemble);
+    /// `scenes`: of one shape, for which method `auto` chooses the same. Throws like Ensemble, and Error where they
+    /// cannot share dispatches.
+    EnsembleRun(const std::vector<SceneDescription>& scenes, const Kernels& kernels, const Device& device);
     ~EnsembleRun();
 
-    /// Returns a member's next frame, the first time frame 0, once all members that have not left ask for theirs. It is
-    /// valid until then. Throws DeviceError where the ensemble is over.
+    /// Calls `simulate` for each member, each on a thread of its own: it makes the member's simulation and runs it.
+    /// Returns when all have returned, and throws what one of them threw.
+    void run(const std::function<void(std::size_t member)>& simulate);
+
+    /// Returns a member's next frame, the first time frame 0, once all members that are still simulated ask for theirs.
+    /// It is valid until then. Throws DeviceError where the ensemble is over.
     FinishedFrame next(std::size_t member);
-    /// The others no longer wait for this one.
-    void leave(std::size_t member);
+    /// Returns what a member's frame loop submits to; null: its frames come from `next`.
+    LoopLane* lane(std::size_t member);
 
   private:
     struct Parts;
+    class Frames;
+    class Lanes;
     std::unique_ptr<Parts> parts_;
 };
 

@@ -32,7 +32,7 @@ struct FrameAttempt {
 };
 
 class EnsembleRun;
-/// A simulation whose frames are those of a member of an ensemble that was made of the same scene.
+/// A simulation that goes on together with those of the other members, of which this one was made of the same scene.
 struct EnsembleMember {
     std::shared_ptr<EnsembleRun> run;
     std::size_t number = 0;
