@@ -126,8 +126,10 @@ void reset_record(int member) {
     record[member].cell_count = 0u;
     record[member].touching_point_count = 0u;
     record[member].touching_edge_count = 0u;
+    record[member].own_pairs = 0u;
     if (given.begins_frame == 0) return;
     record[member].most_pairs = 0u;
+    record[member].most_own_pairs = 0u;
     record[member].most_near = 0u;
     record[member].most_cells = 0u;
     record[member].most_touching = 0u;

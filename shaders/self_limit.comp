@@ -59,7 +59,7 @@ void bound_pair(bool edges, uvec4 pair) {
     Corner a = corner_of(pair.x), b = corner_of(pair.y), c = corner_of(pair.z), d = corner_of(pair.w);
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
     SelfGap gap = self_gap_squared(edges, SelfCorners(a.x, b.x, c.x, d.x));
-    if (push.round == 0 && self_touch(gap)) atomicAdd(record[0].unproved, 1u);
+    if (push.round == 0 && self_touch(gap)) atomicAdd(record[member_at(a.place)].unproved, 1u);
     a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
     b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
     c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));

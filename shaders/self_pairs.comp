@@ -37,6 +37,7 @@ bvec2 found(bool edges, uvec4 pair) {
     float kept = pair_skin(edges, pair, gap.weights).x;
     SelfCorners motions = SelfCorners(moved(pair.x), moved(pair.y), moved(pair.z), moved(pair.w));
     bool listed = self_listed_pair(edges, gap, motions, kept, self_mean_thickness(one, other));
+    if (member_count > 1 && listed) atomicAdd(record[member_at(place_of(self_texel(pair.x)))].own_pairs, 1u);
     return bvec2(listed, listed && self_touches(edges, gap, motions, kept));
 }
 

@@ -121,11 +121,17 @@ void count_lists() {
                                max(record[0].candidate_count, record[0].block_count));
 }
 
+void count_own(int member) {
+    record[member].most_own_pairs = max(record[member].most_own_pairs, record[member].own_pairs);
+}
+
 void main() {
     carried = record[push.member].carried.xyz;
     end_all();
     if (unproved > 0u) atomicAdd(record[push.member].unproved, unproved);
     if (truncated > 0u) atomicAdd(record[push.member].truncated, truncated);
     if (lag > 0.0f) atomicMax(record[push.member].most_lag, floatBitsToUint(lag));
-    if (push.cloth_count > 0 && push.member == 0 && gl_GlobalInvocationID.xy == uvec2(0u)) count_lists();
+    if (push.cloth_count == 0 || gl_GlobalInvocationID.xy != uvec2(0u)) return;
+    if (push.member == 0) count_lists();
+    if (push.member_count > 1) count_own(push.member);
 }

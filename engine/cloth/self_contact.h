@@ -47,7 +47,7 @@ struct SelfContact {
     glsl::ivec2 largest{};  ///< most columns and most rows of any cloth
     bool held = false;      ///< whether some particles are always held
     std::size_t member_count = 1;
-    /// By cloth and cloth of a member: self_meets_not, self_meets or self_meets_apart + index.
+    /// It has, by cloth and cloth of a member, self_meets_not, self_meets or self_meets_apart + index.
     std::vector<glsl::uint> meetings;
     std::vector<glsl::SelfCrossed> to_part;  ///< pairs of cloths that are worked apart, as far as they are free to move
     std::vector<StartCrossing> crossed;      ///< cloths that start through each other, or through themselves

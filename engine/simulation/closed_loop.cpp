@@ -15,30 +15,15 @@
 
 namespace drape {
 
-std::vector<AttemptStep> FrameLoop::attempt_steps(StateSet set) const {
-    using enum AttemptStep;
-    const bool closed = model_.closed_loop(), meets = model_.self_contact.has_value(), is_run = set == StateSet::run;
-    if (!is_run && !has_set(set)) return {};
-    std::vector<AttemptStep> steps;
-    if (!is_run || closed) steps.push_back(change_substep);
-    // Lists of contact may be too short.
-    if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
-    if (is_run && closed) steps.insert(steps.end(), {remember, compare});
-    if (is_run && has_set(StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed});
-    if (is_run && model_.has_companions()) steps.push_back(compare_companion);
-    if (is_run && has_set(StateSet::coarser)) steps.push_back(compare_coarser);
-    return steps;
-}
-
 void FrameLoop::for_each_attempt(const std::function<void(Frame&)>& visit) {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(static_cast<StateSet>(set)))
+        for (const AttemptStep step : attempt_steps(model_, state_substeps_, static_cast<StateSet>(set)))
             visit(attempt(step, static_cast<StateSet>(set)));
 }
 
 void FrameLoop::build_attempts() {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(static_cast<StateSet>(set))) {
+        for (const AttemptStep step : attempt_steps(model_, state_substeps_, static_cast<StateSet>(set))) {
             Frame frame;
             solver_.declare(frame.graph, {}, model_, static_cast<StateSet>(set));
             solver_.add_attempt(frame.graph, step);

@@ -9,6 +9,7 @@
 #include "cloth/members.h"
 #include "cloth/statistics_transfer.h"
 #include "picture/pictures.h"
+#include "simulation/contact_report.h"
 #include "simulation/device_parts.h"
 #include "simulation/member_runs.h"
 
@@ -33,6 +34,7 @@ bool transfer(Archive& archive, MemberProgress& member, MemberMotion& motion) {
         member.failure.reset();
     }
     motion.transfer(archive);
+    if (member.self_contact) transfer_report(archive, *member.self_contact);
     for (ClothStatistics& statistics : member.statistics) transfer_statistics(archive, statistics);
     return member.watch->transfer(archive);
 }
@@ -121,6 +123,10 @@ const std::vector<ClothStatistics>& Ensemble::statistics(std::size_t member) con
     return parts_->members.at(member)->statistics;
 }
 
+const std::optional<SelfContactReport>& Ensemble::self_contact(std::size_t member) const {
+    return parts_->members.at(member)->self_contact;
+}
+
 const FrameEffort& Ensemble::effort(std::size_t member) const { return parts_->members.at(member)->effort; }
 
 void Ensemble::step(const EnsembleActions& actions) {
@@ -176,6 +182,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         if (part == states[k].end()) throw Error("the saved state is not of an ensemble's member");
         progress.emplace_back().watch = std::make_unique<Watch>(member.model);
         progress.back().statistics.resize(member.model.cloths.size());
+        progress.back().self_contact = starting_report(member.model);
         motions.emplace_back(member.model);
         ByteReader reader(part->second);
         if (!transfer(reader, progress.back(), motions.back()) || reader.left() > 0)

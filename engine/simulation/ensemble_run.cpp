@@ -1,3 +1,5 @@
+#include "simulation/ensemble_run.h"
+
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -6,20 +8,12 @@
 #include <vector>
 
 #include "cloth/members.h"
-#include "drape/ensemble.h"
 #include "simulation/device_parts.h"
 #include "simulation/lane_server.h"
 #include "simulation/scene_checks.h"
 #include "solver/kernel_choice.h"
 
 namespace drape {
-
-struct EnsembleRun::Parts {
-    virtual ~Parts() = default;
-    virtual void run(const std::function<void(std::size_t)>& simulate) = 0;
-    virtual FinishedFrame next(std::size_t member) = 0;
-    virtual LoopLane* lane(std::size_t member) = 0;
-};
 
 /// Members by a named method have the frames of an ensemble.
 class EnsembleRun::Frames : public Parts {
@@ -47,7 +41,14 @@ class EnsembleRun::Frames : public Parts {
         if (thrown) std::rethrow_exception(thrown);
     }
 
-    FinishedFrame next(std::size_t member) override {
+    void join(std::size_t member, FrameLoopOptions& options) override {
+        options.next_elsewhere = [this, member] { return next(member); };
+    }
+
+  private:
+    /// Returns a member's next frame, the first time frame 0, once all members that are still simulated ask for theirs.
+    /// It is valid until then. Throws DeviceError where the ensemble is over.
+    FrameElsewhere next(std::size_t member) {
         std::unique_lock lock(mutex_);
         if (begun_.at(member)) {
             const std::uint64_t round = round_;
@@ -57,12 +58,9 @@ class EnsembleRun::Frames : public Parts {
         }
         begun_[member] = true;
         if (failed_) std::rethrow_exception(failed_);
-        return frame(member);
+        return {frame(member), ensemble_.self_contact(member)};
     }
 
-    LoopLane* lane(std::size_t) override { return nullptr; }
-
-  private:
     /// The others no longer wait for this one.
     void leave(std::size_t member, const std::exception_ptr& own, std::exception_ptr& thrown) {
         const std::scoped_lock lock(mutex_);
@@ -155,8 +153,7 @@ class EnsembleRun::Lanes : public Parts {
         std::iota(all.begin(), all.end(), std::size_t{0});
         server_.serve(all, simulate);
     }
-    FinishedFrame next(std::size_t) override { throw Error("members by method auto simulate their frames"); }
-    LoopLane* lane(std::size_t member) override { return &server_.lane(member); }
+    void join(std::size_t member, FrameLoopOptions& options) override { options.lane = &server_.lane(member); }
 
   private:
     Device device_;
@@ -186,7 +183,5 @@ EnsembleRun::EnsembleRun(const std::vector<SceneDescription>& scenes, const Kern
 EnsembleRun::~EnsembleRun() = default;
 
 void EnsembleRun::run(const std::function<void(std::size_t)>& simulate) { parts_->run(simulate); }
-FinishedFrame EnsembleRun::next(std::size_t member) { return parts_->next(member); }
-LoopLane* EnsembleRun::lane(std::size_t member) { return parts_->lane(member); }
 
 }  // namespace drape

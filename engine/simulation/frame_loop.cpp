@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 #include "cloth/tear.h"
 #include "scene/weather.h"
+#include "simulation/contact_report.h"
 #include "solver/cut_pass.h"
 #include "solver/readback_pass.h"
 #include "solver/tear_pass.h"
@@ -22,6 +22,7 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
       watch_(model),
       sleep_(model),
       drive_(model),
+      self_contact_(starting_report(model)),
       state_substeps_(model.scene.solver.substeps),
       position_error_(model),
       sensitivity_(model),
@@ -30,16 +31,6 @@ FrameLoop::FrameLoop(const vulkan::Device& device, const SimulationModel& model,
     if (model_.closed_loop())
         control_.emplace(row_of(model_.scene.solver.method), model_.scene.solver.substeps, model_.choice.least_substeps,
                          probe_length(model_));
-    if (model_.self_contact) {
-        self_contact_.emplace().lag_limit = lag_limit(model_);
-        for (const StartCrossing& each : model_.self_contact->crossed)
-            if (each.first != each.second)
-                self_contact_->crossed.emplace_back(each.first, each.second);
-            else if (!(each.untied > 0))
-                self_contact_->first_unproved = 0;
-        if (!self_contact_->crossed.empty() && model_.self_contact->to_part.size() == self_contact_->crossed.size())
-            self_contact_->last_crossed = 0;
-    }
     if (options_.plans) build_graphs();
     if (options_.lane || options_.next_elsewhere) return;
     allocate_and_record();
@@ -254,12 +245,7 @@ void FrameLoop::note_self_contact(std::uint32_t frame, const glsl::SelfRecord& r
             "pairs of triangles and edges near each other; more substeps or a smaller "
             "self_collision.thickness make them fewer",
             model_.cloths.size() > 1 ? "itself or another" : "itself", frame, use));
-    self_contact_->most_pairs = std::max(self_contact_->most_pairs, record.most_pairs);
-    self_contact_->truncated += record.truncated;
-    self_contact_->longest_lag = std::max(self_contact_->longest_lag, double{std::bit_cast<float>(record.most_lag)});
-    if (lag_judgement(model_, record) > 1 && self_contact_->lagging_frames++ == 0) self_contact_->first_lagging = frame;
-    if (record.crossing_count > 0 && self_contact_->last_crossed) self_contact_->last_crossed = frame;
-    if (record.unproved > 0 && !self_contact_->first_unproved) self_contact_->first_unproved = frame;
+    note_contact(*self_contact_, model_, frame, record);
 }
 
 void FrameLoop::restore_kept() {
@@ -374,7 +360,9 @@ bool FrameLoop::run_elsewhere(std::uint32_t last, const std::function<bool(std::
                               const Finished& finished, const std::function<bool()>& stop) {
     for (; next_frame_ <= last; ++next_frame_) {
         if (stop && stop()) return false;
-        const FinishedFrame frame = options_.next_elsewhere();
+        const FrameElsewhere elsewhere = options_.next_elsewhere();
+        const FinishedFrame& frame = elsewhere.finished;
+        self_contact_ = elsewhere.self_contact;
         if (wanted(next_frame_))
             finished(frame);
         else if (options_.on_passed_over)

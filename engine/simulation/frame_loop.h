@@ -35,6 +35,12 @@ struct CutEvent {
     CutCounts counts;
 };
 
+/// A frame that another simulates: what the proof about contact is with it.
+struct FrameElsewhere {
+    FinishedFrame finished;
+    std::optional<SelfContactReport> self_contact;
+};
+
 struct FrameLoopOptions : PictureOptions {
     bool draw = true;           ///< colour images are wanted
     bool draws_beside = false;  ///< they are, but another device makes them (pictures.h)
@@ -50,7 +56,7 @@ struct FrameLoopOptions : PictureOptions {
     /// else.
     std::function<void(const FinishedFrame&)> on_passed_over;
     /// Frames come from here, in order from 0 on, and nothing is simulated.
-    std::function<FinishedFrame()> next_elsewhere;
+    std::function<FrameElsewhere()> next_elsewhere;
     /// The loop's device; null: it has one of its own. A loop in a lane draws nothing, and its cloths meet nothing of
     /// cloth and stay whole.
     LoopLane* lane = nullptr;
@@ -211,13 +217,7 @@ class FrameLoop {
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
     // These are in closed_loop.cpp.
-    /// Returns the steps that the loop takes in a set.
-    std::vector<AttemptStep> attempt_steps(StateSet set) const;
-    bool has_set(StateSet set) const {
-        if (set == StateSet::disturbed && !model_.closed_loop()) return false;
-        if (set == StateSet::coarser && model_.companions(state_substeps_).coarser == 0) return false;
-        return model_.has_companions();
-    }
+    bool has_set(StateSet set) const { return drape::has_set(model_, state_substeps_, set); }
     void build_attempts();
     Frame& attempt(AttemptStep step, StateSet set = StateSet::run) {
         return attempts_[static_cast<std::size_t>(set)][static_cast<std::size_t>(step)];

@@ -18,23 +18,6 @@ std::vector<const SimulationModel*> pointers_to(const std::vector<SimulationMode
     return all;
 }
 
-bool has_set(const SimulationModel& model, StateSet set) {
-    if (set == StateSet::run) return true;
-    if (set == StateSet::coarser && model.companions(model.scene.solver.substeps).coarser == 0) return false;
-    return model.has_companions();
-}
-
-/// Returns the steps that a closed loop takes in a set (FrameLoop::attempt_steps).
-std::vector<AttemptStep> attempt_steps(const SimulationModel& model, StateSet set) {
-    using enum AttemptStep;
-    if (!has_set(model, set)) return {};
-    if (set != StateSet::run) return {change_substep};
-    std::vector<AttemptStep> steps{change_substep, keep, restore, remember, compare};
-    if (has_set(model, StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed, compare_companion});
-    if (has_set(model, StateSet::coarser)) steps.push_back(compare_coarser);
-    return steps;
-}
-
 bool compares(AttemptStep step) {
     using enum AttemptStep;
     return step == compare || step == compare_companion || step == compare_coarser || step == compare_disturbed;
@@ -84,8 +67,7 @@ LaneServer::LaneServer(const vulkan::Device& device, const std::vector<const Sim
     plan_looks();
     plan_attempts();
     for (std::size_t k = 0; k < state_set_count; ++k)
-        if (const auto set = static_cast<StateSet>(k); has_set(all_, set))
-            plan_rung(set, rungs_[k][all_.scene.solver.substeps]);
+        if (const auto set = static_cast<StateSet>(k); has(set)) plan_rung(set, rungs_[k][all_.scene.solver.substeps]);
 }
 
 LaneServer::~LaneServer() = default;
@@ -104,24 +86,16 @@ std::size_t LaneServer::pass_count() const { return rungs_[0].begin()->second.pl
 
 void LaneServer::plan_looks() {
     for (Planned* const planned : {&look_, &statistics_}) {
-        graph::Graph& graph = planned->graph;
-        const bool counts = planned == &statistics_;
-        solver_.declare(graph, {.drawing = options_.normals, .statistics = counts});
-        if (options_.normals) {
-            solver_.add_normals(graph);
-            solver_.add_readback(graph, Field::normal, "normal");
-        }
-        solver_.add_readback(graph, Field::position, "position");
-        solver_.add_readback(graph, Field::displacement, "displacement");
-        solver_.add_readback(graph, Field::end_excess, "excess displacement");
-        if (counts) solver_.add_statistics(graph);
-        planned->plan = graph::make_plan(graph);
+        solver_.declare(planned->graph, {.drawing = options_.normals, .statistics = planned == &statistics_});
+        add_look(planned->graph, solver_, options_.normals);
+        if (planned == &statistics_) solver_.add_statistics(planned->graph);
+        planned->plan = graph::make_plan(planned->graph);
     }
 }
 
 void LaneServer::plan_attempts() {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(all_, static_cast<StateSet>(set))) {
+        for (const AttemptStep step : attempt_steps(all_, all_.scene.solver.substeps, static_cast<StateSet>(set))) {
             Planned& planned = attempts_[set][static_cast<std::size_t>(step)];
             solver_.declare(planned.graph, {}, all_, static_cast<StateSet>(set));
             solver_.add_attempt(planned.graph, step);
@@ -168,7 +142,7 @@ void LaneServer::allocate() {
     record(look_);
     record(statistics_);
     for (std::size_t set = 0; set < state_set_count; ++set) {
-        for (const AttemptStep step : attempt_steps(all_, static_cast<StateSet>(set)))
+        for (const AttemptStep step : attempt_steps(all_, all_.scene.solver.substeps, static_cast<StateSet>(set)))
             record(attempts_[set][static_cast<std::size_t>(step)]);
         for (auto& [substeps, rung] : rungs_[set]) record(rung.planned);
     }
@@ -345,7 +319,7 @@ SimulationState LaneServer::download(std::size_t place) const {
     SimulationState state;
     for (std::size_t k = 0; k < state_set_count; ++k) {
         const auto set = static_cast<StateSet>(k);
-        if (!has_set(all_, set)) continue;
+        if (!has(set)) continue;
         const std::vector<ClothBytes> fields = solver_.download_cloths(*pool_, cloths, set);
         for (const FieldRow& row : cloth_fields())
             for (std::size_t cloth = 0; cloth < cloths_each_; ++cloth)
@@ -358,7 +332,7 @@ SimulationState LaneServer::download(std::size_t place) const {
 void LaneServer::upload(std::size_t place, const SimulationState& state) {
     for (std::size_t k = 0; k < state_set_count; ++k) {
         const auto set = static_cast<StateSet>(k);
-        if (!has_set(all_, set)) continue;
+        if (!has(set)) continue;
         std::vector<ClothBytes> fields(cloths_each_);
         std::map<std::size_t, const ClothBytes*> by_cloth;
         for (std::size_t cloth = 0; cloth < cloths_each_; ++cloth) {
@@ -376,8 +350,7 @@ void LaneServer::reset(std::size_t place) {
     std::map<std::size_t, const ClothBytes*> starts;
     for (std::size_t cloth = 0; cloth < cloths_each_; ++cloth) starts[place * cloths_each_ + cloth] = nullptr;
     for (std::size_t set = 0; set < state_set_count; ++set)
-        if (has_set(all_, static_cast<StateSet>(set)))
-            solver_.upload_cloths(*pool_, starts, static_cast<StateSet>(set));
+        if (has(static_cast<StateSet>(set))) solver_.upload_cloths(*pool_, starts, static_cast<StateSet>(set));
 }
 
 }  // namespace drape

@@ -5,6 +5,29 @@
 
 namespace drape {
 
+bool has_set(const SimulationModel& model, std::uint32_t substeps, StateSet set) {
+    if (set == StateSet::run) return true;
+    if (set == StateSet::disturbed && !model.closed_loop()) return false;
+    if (set == StateSet::coarser && model.companions(substeps).coarser == 0) return false;
+    return model.has_companions();
+}
+
+std::vector<AttemptStep> attempt_steps(const SimulationModel& model, std::uint32_t substeps, StateSet set) {
+    using enum AttemptStep;
+    const bool closed = model.closed_loop(), meets = model.self_contact.has_value(), is_run = set == StateSet::run;
+    const auto has = [&](StateSet each) { return has_set(model, substeps, each); };
+    if (!has(set)) return {};
+    std::vector<AttemptStep> steps;
+    if (!is_run || closed) steps.push_back(change_substep);
+    // Lists of contact may be too short.
+    if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
+    if (is_run && closed) steps.insert(steps.end(), {remember, compare});
+    if (is_run && has(StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed});
+    if (is_run && model.has_companions()) steps.push_back(compare_companion);
+    if (is_run && has(StateSet::coarser)) steps.push_back(compare_coarser);
+    return steps;
+}
+
 FrameLoop::Rung& FrameLoop::rung(std::uint32_t substeps, StateSet set) {
     Rung& rung = rungs_[static_cast<std::size_t>(set)][substeps];
     if (!rung.model) rung.model = std::make_unique<SimulationModel>(model_, substeps);

@@ -48,9 +48,14 @@ struct LaneWork {
 struct LaneResult {
     std::vector<glsl::StatisticsRecord> statistics;  ///< by cloth
     std::vector<double> differences;                 ///< by cloth, m
-    /// By what was read back and cloth: four floats a particle.
+    /// They have four floats a particle, by what was read back and by cloth.
     std::map<std::string, std::vector<std::vector<float>>, std::less<>> arrays;
 };
+
+/// Returns whether a loop with so many substeps has this set of the state.
+bool has_set(const SimulationModel& model, std::uint32_t substeps, StateSet set);
+/// Returns the steps that it takes in it.
+std::vector<AttemptStep> attempt_steps(const SimulationModel& model, std::uint32_t substeps, StateSet set);
 
 class LoopLane {
   public:

@@ -11,6 +11,7 @@
 #include "cloth/statistics_transfer.h"
 #include "cloth/texels.h"
 #include "scene/frame_limit.h"
+#include "simulation/contact_report.h"
 #include "simulation/frame_loop.h"
 
 namespace drape {
@@ -41,10 +42,7 @@ void FrameLoop::transfer(Archive& archive) {
     archive(next_frame_, state_substeps_, simulated_, motion_error_, beside_substeps_);
     sensitivity_.transfer(archive);
     if (!position_error_.transfer(archive)) refuse("not as many cloths that have errors");
-    if (self_contact_)
-        archive(self_contact_->first_unproved, self_contact_->most_pairs, self_contact_->truncated,
-                self_contact_->longest_lag, self_contact_->first_lagging, self_contact_->lagging_frames,
-                self_contact_->last_crossed);
+    if (self_contact_) transfer_report(archive, *self_contact_);
     if (control_ && !control_->transfer(archive)) refuse("no such substeps");
     if (!sleep_.transfer(archive)) refuse("more speeds than are remembered");
     if (!drive_.transfer(archive)) refuse("not as many cloths that are driven");

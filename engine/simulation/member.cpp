@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/motion.h"
+#include "simulation/contact_report.h"
 #include "simulation/frame_checks.h"
 #include "simulation/scene_checks.h"
 
@@ -105,6 +106,7 @@ void Member::begin_anew() {
     start.put_into(model);
     static_cast<MemberProgress&>(*this) = {};
     watch = std::make_unique<Watch>(model);
+    self_contact = starting_report(model);
 }
 
 void Member::judge() {

@@ -50,6 +50,7 @@ struct MemberProgress {
     bool judged = false;  ///< the statistics of the frame were looked at
     std::vector<ClothStatistics> statistics;
     FrameEffort effort;
+    std::optional<SelfContactReport> self_contact;
     bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
     std::unique_ptr<Watch> watch;                      ///< of the member's model
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulation/member.h"
+#include "solver/cloth_solver.h"
 #include "vulkan/device.h"
 
 namespace drape {
@@ -50,6 +51,9 @@ struct MemberRunOptions {
     bool normals;
     Kernels kernels;
 };
+
+/// Adds the readbacks of what members hand out.
+void add_look(graph::Graph& graph, ClothSolver& solver, bool normals);
 
 /// Throws DeviceError, telling how many fit, where members of so many bytes each have no room on the device together.
 void check_bytes(const vulkan::Device& device, std::uint64_t bytes_each, std::size_t count);

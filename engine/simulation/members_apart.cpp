@@ -177,6 +177,7 @@ class MembersApart : public MemberRuns {
     void keep(std::size_t number, const FinishedFrame& finished) {
         members_[number]->statistics = finished.statistics;
         members_[number]->effort = finished.effort;
+        members_[number]->self_contact = loops_[number]->self_contact();
         const std::array all{&finished.positions, &finished.velocities, &finished.normals};
         for (std::size_t value = 0; value < all.size(); ++value) {
             frames_[number][value].clear();

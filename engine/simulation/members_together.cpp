@@ -10,6 +10,7 @@
 
 #include "cloth/contact_state.h"
 #include "cloth/members.h"
+#include "simulation/contact_report.h"
 #include "simulation/member_runs.h"
 #include "solver/cloth_solver.h"
 #include "solver/readback_pass.h"
@@ -55,7 +56,11 @@ class MembersTogether : public MemberRuns {
         submit(step_, 1, meanwhile);
         while (meet() && lists_were_short()) submit(step_, 1);
         for (const auto& member : members_) ++member->frame;
-        for (std::size_t k = 0; k < members_.size(); ++k) take_statistics(k);
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            take_statistics(k);
+            if (std::optional<SelfContactReport>& report = members_[k]->self_contact)
+                note_contact(*report, members_[k]->model, members_[k]->frame, solver_.self_record_of(*pool_, slot, k));
+        }
     }
 
     void reset(std::span<const std::size_t> numbers) override {
@@ -206,13 +211,7 @@ class MembersTogether : public MemberRuns {
         graph::Graph& graph = planned.graph;
         solver_.declare(graph, {.drawing = options_.normals, .statistics = true});
         if (simulates) solver_.add_simulation(graph);
-        if (options_.normals) {
-            solver_.add_normals(graph);
-            solver_.add_readback(graph, Field::normal, "normal");
-        }
-        solver_.add_readback(graph, Field::position, "position");
-        solver_.add_readback(graph, Field::displacement, "displacement");
-        solver_.add_readback(graph, Field::end_excess, "excess displacement");
+        add_look(graph, solver_, options_.normals);
         solver_.add_statistics(graph);
         planned.plan = graph::make_plan(graph);
     }
@@ -320,6 +319,16 @@ class MembersTogether : public MemberRuns {
 };
 
 }  // namespace
+
+void add_look(graph::Graph& graph, ClothSolver& solver, bool normals) {
+    if (normals) {
+        solver.add_normals(graph);
+        solver.add_readback(graph, Field::normal, "normal");
+    }
+    solver.add_readback(graph, Field::position, "position");
+    solver.add_readback(graph, Field::displacement, "displacement");
+    solver.add_readback(graph, Field::end_excess, "excess displacement");
+}
 
 void check_room(const vulkan::Device& device, Members& two, std::size_t count, const MemberRunOptions& options) {
     check_bytes(device, MembersTogether(device, two, two.size(), options).bytes() / two.size(), count);

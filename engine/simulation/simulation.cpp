@@ -10,11 +10,11 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/passage_watch.h"
 #include "cloth/together.h"
-#include "drape/ensemble.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
 #include "simulation/device_parts.h"
+#include "simulation/ensemble_run.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_loop.h"
 #include "simulation/scene_checks.h"
@@ -93,8 +93,6 @@ FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOpt
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
-    if (wanted.member && !(options.lane = wanted.member->run->lane(wanted.member->number)))
-        options.next_elsewhere = [member = *wanted.member] { return member.run->next(member.number); };
     if (wanted.on_cut)
         options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
             const CutCounts& counts = event.counts;
@@ -135,7 +133,7 @@ struct Simulation::Parts {
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
           passages(model),
-          asked(judging(loop_options(scene, options))),
+          asked(taking_part(options.member, judging(loop_options(scene, options)))),
           loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
         if (given.parts_->drawing && asked.draw)
             pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
@@ -143,6 +141,11 @@ struct Simulation::Parts {
 
     FrameLoopOptions judging(FrameLoopOptions options) {
         if (options.statistics) options.on_passed_over = [this](const FinishedFrame& frame) { judge(frame); };
+        return options;
+    }
+
+    static FrameLoopOptions taking_part(const std::optional<EnsembleMember>& member, FrameLoopOptions options) {
+        if (member) member->run->parts_->join(member->number, options);
         return options;
     }
 

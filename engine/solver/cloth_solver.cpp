@@ -259,7 +259,7 @@ void ClothSolver::add_simulation(graph::Graph& graph) {
     const char* const name = "self record readback";
     if (run_->self_contact)
         add_buffer_readback(graph, {name, "simulate", name}, contact_[ContactField::record], 0,
-                            sizeof(glsl::SelfRecord), contact_readback_name);
+                            run_->self_contact->member_count * sizeof(glsl::SelfRecord), contact_readback_name);
 }
 
 void ClothSolver::add_forms(graph::Graph& graph) { drape::add_forms(graph, pipelines_, *run_, inputs_); }
@@ -401,6 +401,16 @@ glsl::SelfRecord ClothSolver::self_record(const graph::ResourcePool& pool, std::
     glsl::SelfRecord record{};
     if (model_.self_contact)
         std::memcpy(&record, pool.buffer(contact_readback_name, slot).mapped().data(), sizeof record);
+    return record;
+}
+
+glsl::SelfRecord ClothSolver::self_record_of(const graph::ResourcePool& pool, std::uint32_t slot,
+                                             std::size_t member) const {
+    if (model_.member_count == 1) return self_record(pool, slot);
+    glsl::SelfRecord record{};
+    const auto records = pool.buffer(contact_readback_name, slot).mapped();
+    std::memcpy(&record, records.subspan(member * sizeof record, sizeof record).data(), sizeof record);
+    record.most_pairs = record.most_own_pairs;
     return record;
 }
 

@@ -137,8 +137,10 @@ class ClothSolver {
                                             const SimulationModel& run) const;
 
     /// Returns the record of contact between the cloths in the slot's last simulated frame, zeros where there is none.
-    /// Of members it is the first one's, whose counts of lists are those of all.
+    /// Where cloths of several members lie on the sheet, the first one's has the counts of all lists.
     glsl::SelfRecord self_record(const graph::ResourcePool& pool, std::uint32_t slot) const;
+    /// Returns what a member's record would be if it were alone, but for lists that are no pairs.
+    glsl::SelfRecord self_record_of(const graph::ResourcePool& pool, std::uint32_t slot, std::size_t member) const;
     /// Returns whether saved bytes can take the place of a part of the state as it is now; a list has room for them
     /// from the next `declare` on.
     bool takes(const std::string& name, std::span<const std::byte> now, std::span<const std::byte> saved);

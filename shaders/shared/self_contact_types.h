@@ -159,6 +159,8 @@ struct SelfRecord {
     uint unproved;              // motions of held particles that were not proved to cross nothing, pairs that touched
     uint truncated;             // motions of free particles that were cut short
     uint most_lag;              // bits of the longest way (m) that a free particle was held back by in a substep
+    uint own_pairs;             // pairs of the member in this substep, where the lists are of several
+    uint most_own_pairs;        // largest number of these in a substep of the frame
 };
 
 #ifdef __cplusplus

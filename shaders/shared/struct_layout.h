@@ -70,7 +70,7 @@ std::vector<std::uint32_t> offsets_in(const T& whole, const Members&... members)
 template <class T>
 std::vector<std::uint32_t> member_offsets() {
     constexpr std::size_t count = member_count<T>();
-    static_assert(count >= 1 && count <= 20, "a struct shared with GLSL has 1 to 20 members");
+    static_assert(count >= 1 && count <= 22, "a struct shared with GLSL has 1 to 22 members");
     const T v{};
 #define DRAPE_MEMBERS(number, ...)         \
     if constexpr (count == number) {       \
@@ -97,6 +97,8 @@ std::vector<std::uint32_t> member_offsets() {
     DRAPE_MEMBERS(18, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r)
     DRAPE_MEMBERS(19, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s)
     DRAPE_MEMBERS(20, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t)
+    DRAPE_MEMBERS(21, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u)
+    DRAPE_MEMBERS(22, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w)
 #undef DRAPE_MEMBERS
 }
 

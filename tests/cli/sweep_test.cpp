@@ -124,6 +124,28 @@ TEST_F(Sweep, RunsByMethodAutoThatGoOnTogetherHaveTheBytesOfEachAlone) {
     EXPECT_GT(substeps.size(), 1u);
 }
 
+/// Each has the proof about its own cloth.
+TEST_F(Sweep, RunsInWhichClothMeetsItselfThatGoOnTogetherHaveTheBytesOfEachAlone) {
+    write_text(folder / "spec.json",
+               R"({"scene": "scene.json", "seed": 7, "count": 6,
+        "set": {"/time/frames": 20, "/solver": {"method": "line", "substeps": 8, "estimate_error": false}, "/cloths/0/pins": [],
+                "/cloths/0/self_collision": {"thickness": 0.03},
+                "/cloths/0/placement": {"origin": [-0.5, 1.02, 0], "u": [1, 0, 0], "v": [0, -1, 0]}},
+        "vary": {"/cloths/0/areal_density": {"uniform": [0.1, 0.4]}, "/cloths/0/stiffness/stretch": {"uniform": [30, 90]},
+                 "/cloths/0/velocity": {"grid": [[0, -4, 1], [0, -2, 0.5], [0, 0, 0]]}}})");
+    EXPECT_EQ(sweep({"--index", "0-5"}, "together").code, 0);
+    std::set<std::string> pairs;
+    for (int index = 0; index < 6; ++index) {
+        EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, 0) << index;
+        const std::string name = fmt::format("/runs/{:04}", index);
+        EXPECT_EQ(file("together" + name + "/positions.npz"), file("alone" + name + "/positions.npz")) << index;
+        const Json::Value manifest = lasting_manifest(folder / ("together" + name));
+        EXPECT_EQ(manifest, lasting_manifest(folder / ("alone" + name))) << index;
+        pairs.insert(manifest["self_collision"]["most_pairs"].asString());
+    }
+    EXPECT_GT(pairs.size(), 2u);
+}
+
 /// It is not known which of several runs ended their process: all of them are made again, alone.
 TEST_F(Sweep, AProcessThatIsKilledCostsNoRun) {
     write_text(folder / "spec.json", R"({"scene": "scene.json", "seed": 7, "count": 3, "set": {"/time/frames": 1500},

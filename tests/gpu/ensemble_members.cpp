@@ -32,6 +32,18 @@ struct Alone {
     Simulation simulation;
 };
 
+void expect_same_proof(const std::optional<SelfContactReport>& own, const std::optional<SelfContactReport>& other) {
+    ASSERT_EQ(own.has_value(), other.has_value());
+    if (!own) return;
+    EXPECT_EQ(own->first_unproved, other->first_unproved);
+    EXPECT_EQ(own->most_pairs, other->most_pairs);
+    EXPECT_EQ(own->truncated, other->truncated);
+    EXPECT_EQ(own->longest_lag, other->longest_lag);
+    EXPECT_EQ(own->lag_limit, other->lag_limit);
+    EXPECT_EQ(own->first_lagging, other->first_lagging);
+    EXPECT_EQ(own->lagging_frames, other->lagging_frames);
+}
+
 }  // namespace
 
 SceneDescription scene_of(const std::vector<std::string>& overrides) {
@@ -106,6 +118,8 @@ void expect_each_as_alone(const std::vector<SceneDescription>& scenes, std::uint
                 ASSERT_EQ(own.stretch_error_rms, other.stretch_error_rms) << where;
                 ASSERT_EQ(own.penetration, other.penetration) << where;
             }
+            SCOPED_TRACE(where);
+            if (!one.failure) expect_same_proof(ensemble.self_contact(k), alone[k].simulation.self_contact());
         }
     }
 }

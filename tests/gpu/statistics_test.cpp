@@ -189,7 +189,7 @@ TEST(StatisticsTest, AClothThatRestsAsItStarts) {
                  test::plain_statistics(scene, model, state), 0x1p-22);
 }
 
-/// So stiff that bending has most of the energy.
+/// The sheet is so stiff that bending has most of the energy.
 SceneDescription bending_sheet(std::uint32_t columns, std::uint32_t rows) {
     SceneDescription scene = soft_sheet(columns, rows);
     scene.cloths[0].stiffness.bend = 2e-2;

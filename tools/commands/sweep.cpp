@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "base/output_error.h"
@@ -103,11 +104,10 @@ class RunsHere {
     /// Makes those of a list that go on together. Returns false where some were stopped.
     bool make(const std::vector<sweep::GroupedRun>& group) {
         begun_ = std::chrono::steady_clock::now();
-        if (group.size() == 1) {
+        if (group.size() == 1)
             end(run_alone(group.front()));
-        } else {
-            sweep::run_group(group, [&](const sweep::GroupedEnd& run) { end(run); });
-        }
+        else
+            make_together(group);
         if (unwritten_ && group.size() == 1) std::rethrow_exception(unwritten_->error);
         if (unwritten_)
             throw OutputError(fmt::format("run {}: {}", unwritten_->index, failure_of(unwritten_->error).text));
@@ -146,6 +146,19 @@ class RunsHere {
     std::string log_of(std::uint32_t index) {
         const std::scoped_lock lock(mutex_);
         return logs_[index];
+    }
+    /// Makes those alone that the device could not take together with others.
+    void make_together(const std::vector<sweep::GroupedRun>& group) {
+        std::set<std::uint32_t> ended;
+        try {
+            sweep::run_group(group, [&](const sweep::GroupedEnd& run) {
+                ended.insert(run.index);
+                end(run);
+            });
+        } catch (const DeviceError&) {
+            for (const sweep::GroupedRun& run : group)
+                if (!ended.contains(run.index)) end(run_alone(run));
+        }
     }
     static sweep::GroupedEnd run_alone(const sweep::GroupedRun& run) {
         try {

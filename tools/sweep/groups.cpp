@@ -28,10 +28,20 @@ std::optional<GroupShape> shape_of(const SceneDescription& scene, DeviceKind dev
     const std::uint64_t most = is_closed && device == DeviceKind::cpu ? most_particles_by_auto_on_cpu : most_particles;
     for (const Cloth& cloth : scene.cloths)
         if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most) return std::nullopt;
-    // A run proves of its own cloths that they did not cross, which members together do not.
     const SimulationModel model(scene, {.device = device});
-    if (model.self_contact || sharing_obstacle(model)) return std::nullopt;
+    if (sharing_obstacle(model)) return std::nullopt;
     return GroupShape{scene, model.scene.solver.method};
+}
+
+bool is_of_device(const std::exception_ptr& failure) {
+    if (!failure) return false;
+    try {
+        std::rethrow_exception(failure);
+    } catch (const DeviceError&) {
+        return true;
+    } catch (...) {
+        return false;
+    }
 }
 
 bool alike(const GroupShape& first, const GroupShape& other) {
@@ -71,6 +81,7 @@ void run_group(const std::vector<GroupedRun>& group, const std::function<void(co
     const Device device = device_of(first.scene, scenes.front(), false);
     const auto shared = std::make_shared<EnsembleRun>(scenes, first.scene.kernels, device);
     std::mutex mutex;
+    std::exception_ptr of_device;
     shared->run([&](std::size_t number) {
         GroupedEnd end{group[number].index, false, nullptr};
         try {
@@ -81,8 +92,12 @@ void run_group(const std::vector<GroupedRun>& group, const std::function<void(co
             end.failure = std::current_exception();
         }
         const std::scoped_lock lock(mutex);
-        ended(end);
+        if (is_of_device(end.failure))
+            of_device = end.failure;
+        else
+            ended(end);
     });
+    if (of_device) std::rethrow_exception(of_device);
 }
 
 }  // namespace drape::sweep

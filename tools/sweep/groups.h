@@ -19,8 +19,8 @@ struct GroupedRun {
 /// A group has at most so many runs, each of which has a thread.
 inline constexpr std::size_t most_grouped = 256;
 
-/// Returns whether runs of this scene can share dispatches on such a device, and gain by it: its cloth neither meets
-/// itself nor is cut nor fills the device alone, and no file has pictures.
+/// Returns whether runs of this scene can share dispatches on such a device, and gain by it: no cloth is cut or fills
+/// the device alone (cloth/members.h has the rest), and no file has pictures.
 bool can_be_grouped(const RunRequest& request, DeviceKind device);
 
 /// Returns the runs in lists of those that go on together, in order. One that goes on alone is in a list of its own.
@@ -33,8 +33,8 @@ struct GroupedEnd {
     std::exception_ptr failure;
 };
 
-/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Throws what keeps the
-/// ensemble from being made.
+/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Where the device cannot take
+/// all of them it throws DeviceError, and those that it has not told of have no result.
 void run_group(const std::vector<GroupedRun>& group, const std::function<void(const GroupedEnd&)>& ended);
 
 }  // namespace drape::sweep

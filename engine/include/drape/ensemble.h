@@ -93,6 +93,8 @@ class Ensemble {
     /// Returns the work that a member's frame took; by methods with fixed substeps that share dispatches its substeps
     /// alone.
     const FrameEffort& effort(std::size_t member) const;
+    /// Returns what was proved of contact in a member's frames so far; nothing when none of its cloths meets itself.
+    const std::optional<SelfContactReport>& self_contact(std::size_t member) const;
     MemberArray positions(std::size_t cloth) const;   ///< x y z, m, and w: relative inverse mass, 0: held
     MemberArray velocities(std::size_t cloth) const;  ///< x y z, m/s, at the frames' ends
     MemberArray normals(std::size_t cloth) const;     ///< unit x y z of the front; only with EnsembleOptions::normals
@@ -111,8 +113,6 @@ class Ensemble {
     std::unique_ptr<Parts> parts_;
 };
 
-class LoopLane;
-
 /// Simulations that go on together, each of a scene of its own on a thread of its own (SimulationOptions::member).
 class EnsembleRun {
   public:
@@ -125,13 +125,8 @@ class EnsembleRun {
     /// Returns when all have returned, and throws what one of them threw.
     void run(const std::function<void(std::size_t member)>& simulate);
 
-    /// Returns a member's next frame, the first time frame 0, once all members that are still simulated ask for theirs.
-    /// It is valid until then. Throws DeviceError where the ensemble is over.
-    FinishedFrame next(std::size_t member);
-    /// Returns what a member's frame loop submits to; null: its frames come from `next`.
-    LoopLane* lane(std::size_t member);
-
   private:
+    friend class Simulation;
     struct Parts;
     class Frames;
     class Lanes;
