@@ -64,7 +64,8 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
     // Adding +0 turns the -0 of an empty sum into 0.
     statistics.stretch = strain_statistics(record.counts.z, record.squares.x + 0.0, record.strains.x, record.strains.z);
     statistics.shear = strain_statistics(record.counts.w, record.squares.y + 0.0, record.strains.y, record.strains.w);
-    if (record.counts.z > 0) {
+    if (frame > 0 && record.counts.z > 0) {
+        statistics.most_stretched = particle_of(record.places.w);
         statistics.stretch_error_rms = std::sqrt((record.errors.x + 0.0) / record.counts.z);
         statistics.stretch_error_max = record.extents.w;
     }
@@ -85,7 +86,6 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
     }
     statistics.farthest = particle_of(record.places.x);
     statistics.fastest = particle_of(record.places.y);
-    statistics.most_stretched = particle_of(record.places.w);
     statistics.largest_distance = std::sqrt(static_cast<double>(record.extents.x));
     statistics.largest_speed = std::sqrt(static_cast<double>(record.extents.y)) / h;
     statistics.non_finite_count = record.counts.x;

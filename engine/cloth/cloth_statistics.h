@@ -17,8 +17,9 @@ glsl::vec4 statistics_reference(const ClothModel& cloth);
 /// Returns the mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
 std::vector<float> mass_shares(const ClothModel& cloth);
 
-/// Its potential energy is that of the frame's gravity.
+/// Its potential energy is that of the frame's gravity. Frame 0 is given: no solver has put a force on it, so it has no
+/// stretch error.
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
-                                 const glsl::StatisticsRecord& record, std::uint32_t frame = 0);
+                                 const glsl::StatisticsRecord& record, std::uint32_t frame = 1);
 
 }  // namespace drape

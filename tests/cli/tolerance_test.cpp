@@ -1,6 +1,7 @@
 // A scene that misses its own tolerance ends with exit code 8 and keeps the frames before.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <json/json.h>
 
 #include "program.h"
 #include "scenes.h"
@@ -11,6 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(Tolerance, MissedEndsTheRunNamingFrameClothAndErrorAndKeepsTheFramesBefore) {
     const SceneFolder folder(small_scene(9));
@@ -38,6 +40,23 @@ TEST(Tolerance, TheManifestOfARunThatStoppedSaysWhichFramesWereWritten) {
                 AllOf(HasSubstr("\"count\": 1,"), HasSubstr("\"start\": 0,"), HasSubstr("\"end\": 0,")));
     EXPECT_THAT(frames_from("3"),
                 AllOf(HasSubstr("\"count\": 0,"), HasSubstr("\"start\": 3,"), HasSubstr("\"end\": 2,")));
+}
+
+TEST(Tolerance, AClothThatStartsStrainedHasNoErrorBeforeTheFirstStep) {
+    const SceneFolder folder(small_scene(3));
+    for (const std::string method : {"line", "relax", "explicit"})
+        for (const std::string tolerance : {"0.01", "0"}) {
+            const Outcome outcome =
+                drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "--set",
+                       "/cloths/0/placement/scale=[1.05,1.05]", "--set",
+                       R"(/solver={"method":")" + method + R"(","substeps":200,"tolerance":)" + tolerance + "}"});
+            EXPECT_EQ(outcome.code, 0) << outcome.err;
+            EXPECT_THAT(outcome.err, Not(HasSubstr("the stretch error came to"))) << method;
+            const Json::Value statistics = lasting_manifest(folder.out())["statistics"];
+            EXPECT_NEAR(statistics[0]["sheet/stretch_max"].asDouble(), 0.05, 1e-3) << method;
+            EXPECT_EQ(statistics[0]["sheet/stretch_error_rms"].asDouble(), 0) << method;
+            EXPECT_EQ(statistics[0]["sheet/stretch_error_max"].asDouble(), 0) << method;
+        }
 }
 
 TEST(Tolerance, MetIsARunLikeAnyOtherAndStatesItsIterations) {

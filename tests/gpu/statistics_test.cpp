@@ -410,7 +410,7 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
                 if (model.cloths[cloth].scheme.gathered_tension) twin.tension(cloth);
                 const ClothStatistics expected = cloth_statistics(
                     model, model.cloths[cloth],
-                    twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)));
+                    twin_statistics(model, cloth, twin.cloth(cloth), frame_inputs(model, frame.frame)), frame.frame);
                 EXPECT_EQ(frame.statistics[cloth].stretch.rms, expected.stretch.rms);
                 EXPECT_EQ(frame.statistics[cloth].stretch_error_rms, expected.stretch_error_rms);
                 EXPECT_EQ(frame.statistics[cloth].stretch_error_max, expected.stretch_error_max);
