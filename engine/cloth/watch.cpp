@@ -97,12 +97,11 @@ double held_strain(const ClothModel& cloth) {
 
 }  // namespace
 
-Watch::Watch(const SimulationModel& model) : model_(model), drives_(model.cloths.size(), {Drive{}}) {
+Watch::Watch(const SimulationModel& model)
+    : model_(model), drives_(model.cloths.size(), {Drive{}}), stiffening_(model) {
     const auto moving = [](const Collider& collider) { return collider.moves(); };
-    passive_ = !model.windy && std::ranges::none_of(model.scene.colliders, moving);
-    // Cloth that is led apart may be lifted.
-    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();
-    passive_ = passive_ && !led_apart_;
+    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // such cloth may be lifted
+    passive_ = !model.windy && !led_apart_ && std::ranges::none_of(model.scene.colliders, moving);
     for (const ClothModel& cloth : model.cloths) {
         Start start{0, {}, cloth.reach(), rounding * cloth.start_strain, 0, false, cloth.start_bending()};
         if (start.strain > 0) start.held_strain = rounding * held_strain(cloth);
@@ -211,7 +210,7 @@ double Watch::own_speed(std::uint32_t frame, std::size_t index) const {
     const double recoil =
         std::min(drive.travel / smaller, 1.0) * wave_speed(cloth, start.diagonal, model_.scene.time.fps);
     return model_.cloths[index].start_speed + fall + (model_.windy ? wind : 0) + released(index) + pushed() +
-           drive.speed + recoil;
+           drive.speed + recoil + stiffening_.recoil(index);
 }
 
 /// Returns the speed and the way that a cloth may have by all that acts on it. Struck by a much heavier one it leaves,
@@ -269,42 +268,61 @@ Watch::Gain Watch::gain(std::size_t index, const ClothStatistics& statistics) co
     const double scale = moving + statistics.mass * (length(strongest_gravity(model_.scene)) * start.diagonal +
                                                      0.5 * calm_speed * calm_speed);
     const double given = released(index), led = pushed();
-    return {energy - start_energy, energy_share * scale + statistics.mass * (given * given + led * led)};
+    return {energy - start_energy,
+            energy_share * scale + statistics.mass * (given * given + led * led) + stiffening_.done(index)};
+}
+
+Watch::Gain Watch::gain(const std::vector<ClothStatistics>& cloths, std::size_t first, std::size_t count) const {
+    Gain all{0, 0};
+    for (std::size_t cloth = first; cloth < first + count; ++cloth) {
+        const Gain one = gain(cloth, cloths[cloth]);
+        all = {all.energy + one.energy, all.explained + one.explained};
+    }
+    return all;
+}
+
+/// Springs hold no more than has been lost or given: what an error put into them is no reason for more work.
+void Watch::keep_elastic_energy(const std::vector<ClothStatistics>& cloths) {
+    if (!passive_ || !stiffening_.happens()) return;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const Gain one = model_.self_contact ? gain(cloths, 0, cloths.size()) : gain(cloths, cloth, 1);
+        stiffening_.keep(cloth, std::max(std::min(one.explained - one.energy, cloths[cloth].elastic_energy), 0.0));
+    }
 }
 
 /// Cloths that meet give each other energy, so that only what all have is bounded: it names the one that gained most.
 Implausible Watch::worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first,
                                 std::size_t count) const {
     if (!passive_) return {};
-    Gain all{0, 0};
+    const Gain all = gain(cloths, first, count);
     std::size_t most = first;
     double largest = -std::numeric_limits<double>::infinity();
     for (std::size_t cloth = first; cloth < first + count; ++cloth) {
-        const Gain one = gain(cloth, cloths[cloth]);
-        all = {all.energy + one.energy, all.explained + one.explained};
-        if (one.energy > largest) most = cloth, largest = one.energy;
+        const double one = gain(cloth, cloths[cloth]).energy;
+        if (one > largest) most = cloth, largest = one;
     }
-    Implausible found = compare(
-        "energy gained, J", all.energy, all.explained,
-        count == 1 ? "the cloth has gained {:.3g} J, though nothing does work on it (bound {:.3g} J)"
-                   : "it and the cloths that it meets have gained {:.3g} J, though nothing does work on them (bound "
-                     "{:.3g} J)");
+    const char* sentence = count == 1
+                               ? "the cloth has gained {:.3g} J, where at most {:.3g} J are explained"
+                               : "it and the cloths that it meets have gained {:.3g} J, where {:.3g} J are explained";
+    Implausible found = compare("energy gained, J", all.energy, all.explained, sentence);
     found.cloth = most;
     return found;
 }
 
 /// Returns the largest part of a bound; where stretch errors count too, the first cloth's that is beyond its bound.
 Implausible Watch::worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const {
+    // The work of stiffness is known of frames asked about in order, which those of a closed loop are not.
+    const bool energy = stretch || !stiffening_.happens();
     Implausible most;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         Implausible found = worse(worst(frame, cloth, cloths[cloth]), worst_penetration(frame, cloth, cloths[cloth]));
-        if (!model_.self_contact) found = worse(found, worst_energy(cloths, cloth, 1));
+        if (energy && !model_.self_contact) found = worse(found, worst_energy(cloths, cloth, 1));
         if (stretch) found = worse(found, worst_stretch(frame, cloth, cloths[cloth]));
         found.cloth = cloth;
         if (stretch && found.excess > 1) return found;
         most = worse(most, found);
     }
-    return model_.self_contact ? worse(most, worst_energy(cloths, 0, cloths.size())) : most;
+    return energy && model_.self_contact ? worse(most, worst_energy(cloths, 0, cloths.size())) : most;
 }
 
 double Watch::excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
@@ -464,12 +482,14 @@ void Watch::remember(const ClothStatistics& statistics) {
 
 std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths) {
     extend(frame);
+    stiffening_.begin(frame);
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         remember(cloths[cloth]);
         note_penetration(frame, cloth, cloths[cloth]);
         note_stretch(frame, cloth, cloths[cloth]);
     }
     const Implausible found = worst_of(frame, cloths, true);
+    keep_elastic_energy(cloths);
     std::optional<Implausible> failed = found.excess > 1 ? std::optional(found) : lasting_stretch(frame, cloths);
     if (failed) recent_.clear();  // whether it settles is no question any more
     return failed;

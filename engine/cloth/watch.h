@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
+#include "cloth/stiffening.h"
 #include "drape/statistics.h"
 
 namespace drape {
@@ -32,11 +33,13 @@ class Watch {
     /// Returns the worst cloth's largest value over its bound; above 1 a closed loop does the frame again:
     ///   speed     10 (v0 + g t + wind + pins + 2 colliders + recoil) + 0.1 m/s, with the largest speeds so far; g t of
     ///             held cloth ends at 2 sqrt(g d), d its diagonal; recoil: what pins and colliders strained at most
-    ///             comes back at the speed of waves, as does what a cloth starts strained by
+    ///             comes back at the speed of waves, as does what a cloth starts strained by or stretched while soft
     ///   distance  from the origin: the start's, twice the stretched diagonal, the travel of pins and colliders, and
     ///             what free cloth may have flown at twice these speeds
-    ///   energy    kinetic and potential, where nothing does work on it (no wind, nothing moves): the start's and a
-    ///             tenth of v0^2 m/2 + m g d
+    ///   energy    kinetic and potential, where nothing else does work on it (no wind, steady gravity, nothing moves):
+    ///             the start's, a tenth of v0^2 m/2 + m g d, and the work of keys that make it stiffer, on no more
+    ///             elastic energy than all that has been lost or given; where there are such keys, a closed loop
+    ///             does not ask for it
     ///   penetration  the thickness, a stretched cell, twice the way of such speeds in a substep, and how deep the
     ///   cloth
     ///             starts and pins hold it in a collider
@@ -69,7 +72,7 @@ class Watch {
         for (Note* note : {&deep_, &torn_}) archive(note->first, note->worst, note->cloth, note->value, note->particle);
         const std::size_t count = std::max<std::size_t>(starts_.size(), 1);
         return recent_.size() <= frames_in_a_row && last_.cloth < count && deep_.cloth < count && torn_.cloth < count &&
-               starts_depth_.size() <= count;
+               starts_depth_.size() <= count && stiffening_.transfer(archive);
     }
 
     /// Returns what to say of the frames that were asked about, beside what is implausible: cloth deeper in what
@@ -120,6 +123,8 @@ class Watch {
     Reach reach(std::uint32_t frame, std::size_t cloth) const;
     Implausible worst(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
     Gain gain(std::size_t cloth, const ClothStatistics& statistics) const;
+    Gain gain(const std::vector<ClothStatistics>& cloths, std::size_t first, std::size_t count) const;
+    void keep_elastic_energy(const std::vector<ClothStatistics>& cloths);
     Implausible worst_energy(const std::vector<ClothStatistics>& cloths, std::size_t first, std::size_t count) const;
     Implausible worst_of(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool stretch) const;
     Implausible worst_stretch(std::uint32_t frame, std::size_t cloth, const ClothStatistics& statistics) const;
@@ -136,6 +141,7 @@ class Watch {
     std::vector<Start> starts_;
     std::uint32_t first_ = 0;                ///< frame of the first of a cloth's drives
     std::vector<std::deque<Drive>> drives_;  ///< by cloth, for the last frames that were asked about
+    Stiffening stiffening_;
     bool passive_;
     bool led_apart_;  ///< some cloths are, from others that they started through
     std::optional<double> worst_rms_, worst_max_;

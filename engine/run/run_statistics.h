@@ -30,8 +30,8 @@ class RunStatistics {
     std::string note(const FrameValues& values) const;
 
     /// Visits frames in order, each with "energy_drift_j": kinetic, potential and elastic energy together, minus that
-    /// of the first frame. It is the solver's error where nothing does work on the cloth; wind, damping, contact and
-    /// moving pins do. A stream has no frames. Throws OutputError.
+    /// of the first frame. It is the solver's error where nothing does work on the cloth; wind, damping, contact,
+    /// moving pins, cuts and tears, gravity and stiffness that change do. A stream has no frames. Throws OutputError.
     void for_each_frame(const Manifest::FrameVisitor& take) const;
 
     /// Returns the largest value, of any frame and cloth, of "<cloth>" + `name`.

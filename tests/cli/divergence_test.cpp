@@ -99,6 +99,18 @@ TEST(Divergence, WhatIsFiniteButNotPlausibleIsNoResult) {
     EXPECT_THAT(read_text(folder / "out/positions.npy"), HasSubstr("'shape': (1, 6, 8, 3)"));
 }
 
+TEST(Divergence, StiffnessThatRisesUnderLoadIsNoNonsense) {
+    const SceneFolder folder(R"({"time": {"frames": 80}, "cloths": [{
+        "grid": [9, 9], "size": [1, 1], "placement": {"origin": [0, 1, 0]}, "damping": 3,
+        "stiffness": {"stretch": 300, "shear": 30}, "pins": [{"edge": "top"}],
+        "stiffness_keys": [{"t": 1, "factor": 0.02}, {"t": 1.3, "factor": 0.5}]}]})");
+    for (const std::string solver : {R"({})", R"({"method": "explicit", "substeps": 100})"}) {
+        const Outcome outcome =
+            drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "--set", "/solver=" + solver});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+}
+
 TEST(Divergence, FailedFramesAreKeptWhereThatIsAskedForAndStillEndWithTheirCode) {
     const SceneFolder folder(small_scene(9));
     std::vector<std::string> arguments = simulate_absurd(folder);
