@@ -108,7 +108,8 @@ Value<std::vector<T>> list(const Value<T>& item, std::string_view what, std::siz
     value.text.schema = "\"type\": \"array\", \"items\": {" + item.text.schema + "}";
     if (least > 0) value.text.schema += ", \"minItems\": " + std::to_string(least);
     value.text.schema += ", \"maxItems\": " + std::to_string(most);
-    value.text.words = "array of " + item.text.words;
+    const std::string count = least > 0 ? std::to_string(least) + " to " : "at most ";
+    value.text.words = "array of " + count + std::to_string(most) + " " + item.text.words;
     value.read = [item, what, least, most, fresh](const SceneNode& node, std::vector<T>& field) {
         if (!node.open_array(what, least, most)) return !node;
         field.assign(node.size(), fresh);

@@ -68,6 +68,7 @@ Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_
 Verdict swing(const SceneRun& run, const Limits& limits) {
     const std::size_t cloth = limits.index("cloth"), first = limits.index("from_frame");
     const std::size_t last = std::min(limits.index("until_frame"), run.last_frame());
+    if (first >= last) return {false, "there are no such frames"};
     const ClothMeasure measure(run.scene, cloth);
     double start = 0, lost = 0, fastest = 0, share = 0, when = 0;
     for (std::size_t frame = first; frame < last; ++frame) {

@@ -66,6 +66,18 @@ TEST_F(Compare, WhatIsNoNumberIsNearNothingButItself) {
     EXPECT_THAT(outcome.out, HasSubstr("largest difference inf at (0, 0), RMS inf, 1 of 4 values differ"));
 }
 
+TEST_F(Compare, NothingIsNoSuccess) {
+    fs::create_directories(*this / "a/jobs");
+    fs::create_directories(*this / "b");
+    write_text(*this / "b/manifest.json", "{}");
+    const Outcome outcome = run("a", "b");
+    EXPECT_EQ(outcome.code, 7);
+    EXPECT_THAT(outcome.err, HasSubstr("nothing to compare: neither folder has a file"));
+    const Outcome json = run("a", "b", {"--json"});
+    EXPECT_EQ(json.code, 7);
+    EXPECT_EQ(json.out, "[]\n");
+}
+
 TEST_F(Compare, PicturesByTheirSignalToNoiseRatio) {
     const std::vector<std::uint8_t> black(4 * 6, 0);
     std::vector<std::uint8_t> spot = black;

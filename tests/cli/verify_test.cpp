@@ -95,6 +95,20 @@ TEST(Verify, JudgesTheMotionWhereItsErrorIsEstimated) {
     const Outcome missed = verify(folder, strict);
     EXPECT_EQ(missed.code, 7);
     EXPECT_THAT(missed.out, HasSubstr("  MISSED  motion: positions about "));
+    EXPECT_THAT(drape({"verify", "--help"}).out, AllOf(HasSubstr("motion"), HasSubstr("solver.tolerance_motion")));
+}
+
+TEST(Verify, NoOracleIsMetByFramesThatThereAreNot) {
+    const std::string swing = R"({"check": "swing", "cloth": 1, "least": 0, "most": 1, )";
+    for (const char* frames : {R"("from_frame": 20, "until_frame": 10})", R"("from_frame": 10, "until_frame": 10})",
+                               R"("from_frame": 90, "until_frame": 99})"}) {
+        const Outcome outcome = verify(SceneFolder(scene_with(swing + frames)), {"--no-validate"});
+        EXPECT_EQ(outcome.code, 7) << frames;
+        EXPECT_THAT(outcome.out, HasSubstr("  MISSED  oracle/swing: there are no such frames\n"));
+    }
+    const Outcome there =
+        verify(SceneFolder(scene_with(swing + R"("from_frame": 0, "until_frame": 30})")), {"--no-validate"});
+    EXPECT_THAT(there.out, HasSubstr("  met     oracle/swing: "));
 }
 
 TEST(Verify, WhatDivergesIsMissedAndItsOraclesWithIt) {

@@ -131,6 +131,23 @@ TEST(SceneFormat, DocumentHasEveryKeyAndItsDefault) {
     }
 }
 
+TEST(SceneFormat, DocumentHasTheLimitsOfArrays) {
+    const std::string document = scene_format_markdown();
+    int count = 0;
+    for (const Definition* object : scene_objects())
+        for (const KeyText& key : object->keys) {
+            const Json::Value value = object_schema(object->name)["properties"][std::string(key.name)];
+            const int least = value["minItems"].asInt(), most = value["maxItems"].asInt();
+            if (most == least) continue;  // points and ranges, whose documents say how many numbers
+            const std::string limits =
+                least > 0 ? fmt::format("{} to {}", least, most) : fmt::format("at most {}", most);
+            EXPECT_NE(document.find(fmt::format("\n- `{}`: array of {} ", key.name, limits)), std::string::npos)
+                << object->name << " " << key.name << " " << limits;
+            ++count;
+        }
+    EXPECT_GT(count, 10);
+}
+
 TEST(SceneSchema, HasExactlyTheKeysOfTheFormat) {
     std::set<std::string> objects;
     for (const Definition* object : scene_objects()) {

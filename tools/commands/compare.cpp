@@ -50,9 +50,12 @@ ExitCode run(const CompareOptions& options) {
     }
     const std::vector<compare::Row> rows = folder ? compare::compare_folders(before, after, options.limits)
                                                   : compare::compare_files(before, after, options.limits);
+    if (rows.empty())
+        print_error(printable(fmt::format("nothing to compare: {} that tells of more than times",
+                                          folder ? "neither folder has a file" : "neither file has an array")));
     print_data(options.json ? compare::rows_json(rows) : compare::rows_text(rows));
     const bool over = std::ranges::any_of(rows, &compare::Row::over);
-    return over ? ExitCode::comparison : ExitCode::ok;
+    return over || rows.empty() ? ExitCode::comparison : ExitCode::ok;
 }
 
 }  // namespace
@@ -62,9 +65,9 @@ void add_compare(Program& program) {
     CLI::App& command = program.add("compare", "Two runs' arrays, pictures or folders, or two profiles", R"text(
 Arrays (.npy, .npz): largest and RMS difference. Pictures (.png): PSNR and largest difference. Folders: file by file,
 those in folders in them too, other files by their bytes; what tells times is left out (manifest.json, results.csv,
-jobs/). What is given no limit must be equal. Exit code 7 when anything is
-over its limit, or only one of them has it. Where the manifest beside arrays calls frames `sensitive` (equally exact
-runs part there), --max and --rms judge the frames before, and of the others only means are told.
+jobs/). What is given no limit must be equal. Exit code 7 when anything is over its limit, only one of them has it, or
+there is nothing to compare. Where the manifest beside arrays calls frames `sensitive` (equally exact runs part there),
+--max and --rms judge the frames before, and of the others only means are told.
 
 Profiles (`drape profile --json`): medians of what both have, their ratio, and the noise: the larger interquartile
 range over its median, at least 2 %. Exit code 7 when anything is slower by more than that.
