@@ -97,7 +97,7 @@ std::uint32_t whole_substeps(double substeps);
 /// Returns every number of a scheme, in a fixed order: two plans that do the same have these in common.
 std::vector<std::byte> bytes_of(const MethodScheme& scheme);
 
-/// Returns phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep.
+/// Returns phi = (1 - e^(-c h)) / (c h): the mean of the damping factor over a substep. The factor is 1/128 at least.
 double damping_mean(double damping, double substep_length);
 glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings);
 /// Returns the displacement before the start, of a particle with this velocity (m/s), that makes damped ballistic

@@ -47,12 +47,20 @@ constexpr Method rows[] = {
      {false, relax_sweep, relax_quick}},
 };
 
+/// Returns c h, of which a substep takes no more than leaves this share of a velocity: the displacement before the
+/// start is more than the next one by one over that share, and has only so many digits.
+double damped(double damping, double h) {
+    constexpr double least_left = 1.0 / 128;
+    static const double most = -std::log(least_left);
+    return std::min(damping * h, most);
+}
+
 /// Returns the displacement of the substep before the start that makes damped ballistic flight exact (docs/physics.md
 /// 3): d0 = v_inf h + (v0 - v_inf)(e^(c h) - 1)/c with v_inf = g/c; for small c h by its series.
 double start_displacement(double velocity, double acceleration, double damping, double h) {
     const double ch = damping * h;
     if (ch < 1e-5) return velocity * h * (1 + ch / 2) - acceleration * h * h * (0.5 + ch / 6);
-    const double growth = std::expm1(ch) / damping;
+    const double growth = std::expm1(damped(damping, h)) / damping;
     return velocity * growth + acceleration / damping * (h - growth);
 }
 
@@ -106,12 +114,14 @@ const Method& row_of(SolverMethod method) {
     return *row;
 }
 
-double damping_mean(double damping, double h) { return damping > 0 ? -std::expm1(-damping * h) / (damping * h) : 1.0; }
+double damping_mean(double damping, double h) {
+    return damping > 0 ? -std::expm1(-damped(damping, h)) / (damping * h) : 1.0;
+}
 
 glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings) {
     const double h = settings.substep_length, step = damping_mean(cloth.damping, h) * h * h;
     const Vec3& gravity = settings.gravity;
-    return {cloth.grid.size(), static_cast<float>(-std::expm1(-cloth.damping * h)),
+    return {cloth.grid.size(), static_cast<float>(-std::expm1(-damped(cloth.damping, h))),
             static_cast<float>(step / cloth.inner_mass),
             texel(Vec3{step * gravity[0], step * gravity[1], step * gravity[2]}, 0)};
 }
