@@ -1,4 +1,5 @@
-// Says what a run proved of contact, of which triangles, and what a user can do where it did not.
+// Says what a run proved of contact, of which triangles, which ones the wind left out, and what a user can do where it
+// did not.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,12 @@ namespace drape {
 /// frames. A cut acts from the next frame on, so one that the last frame found split nothing that was seen.
 std::vector<Manifest::SplitTriangles> split_triangles(std::span<const Manifest::Cut> cuts, std::int64_t last);
 
-/// Tells the manifest what was proved of contact between cloths, and what contact leaves out.
+/// Tells the manifest what was proved of contact between cloths, and what contact and wind leave out.
 void describe_contact(Manifest& manifest, const Simulation& simulation, std::span<const Manifest::Cut> cuts);
 
-/// Returns what to tell of contact that the manifest says leaves triangles out; nothing where it leaves none out. It is
-/// no warning, as a cut has to go through the cells somewhere.
-std::optional<std::string> left_out_of_contact(const Manifest& manifest);
+/// Returns what to tell of triangles that contact or the wind leaves out, as the manifest says; nothing where there are
+/// none. It is no warning, as a cut has to go through the cells somewhere.
+std::optional<std::string> left_out_triangles(const Manifest& manifest);
 
 /// Returns what to tell a run whose cloths met and may have crossed; those that started so were told of before.
 std::optional<std::string> lost_proof(const Simulation& simulation);

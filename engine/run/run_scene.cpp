@@ -471,7 +471,7 @@ RunSummary run_scene(const RunRequest& request) {
         manifest.warnings = summary.warnings;
         manifest.solver.stretch_error = simulation.verdict().stretch_error_rms;
         describe_contact(manifest, simulation, sink.cuts());
-        for (const auto& note : {left_out_of_contact(manifest), sink.statistics()->sensitive_motion()})
+        for (const auto& note : {left_out_triangles(manifest), sink.statistics()->sensitive_motion()})
             if (note && !request.quiet) say("note: " + *note);
         finish_files(sink, manifest, summary, failure);
     }

@@ -74,7 +74,8 @@ const Object<Wind> wind{
     "wind",
     "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
     "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles. A counts to twice its "
-    "value at rest. Where no wind ever blows there is no air, which costs nothing; a velocity of 1e-9 makes still air, "
+    "value at rest. It does not act on triangles that are split. Where no wind ever blows there is no air, which costs "
+    "nothing; a velocity of 1e-9 makes still air, "
     "which slows cloth down.",
     {
         {"velocity", &Wind::velocity, vec3, "m/s, steady wind. Ignored (with a warning) beside keys."},

@@ -128,6 +128,28 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
                 HasSubstr("Not covered: " + count.asString() + " triangles of cloth 'sheet', from frame 6 on."));
 }
 
+TEST(Crossings, TrianglesThatTheWindLeavesOutAreCounted) {
+    const SceneFolder folder(cut_across_a_box);
+    const std::string apart = "/cloths/0/self_collision=false";
+    const auto said = [&](const std::vector<std::string>& overrides) {
+        std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "--overwrite"};
+        for (const std::string& each : overrides) arguments.insert(arguments.end(), {"--set", each});
+        const Outcome outcome = drape(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const std::string blows = "/wind/velocity=[0,3,0]";
+    EXPECT_THAT(said({blows}), HasSubstr(" meet no cloth and no edge of a collider, and feel no wind; a finer grid"));
+    EXPECT_THAT(said({blows, apart, "/colliders={}"}), HasSubstr(" that were split from frame 6 on feel no wind; a"));
+    const Json::Value manifest = lasting_manifest(folder / "out"), &list = manifest["wind"]["not_covered"];
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0]["cloth"].asString(), "sheet");
+    EXPECT_EQ(list[0]["first_frame"].asInt(), 6);
+    EXPECT_EQ(list[0]["triangles"], manifest["cuts"][0]["triangles"]);
+    EXPECT_THAT(said({apart, "/colliders={}"}), Not(HasSubstr("note: ")));
+    EXPECT_FALSE(lasting_manifest(folder / "out").isMember("wind"));
+}
+
 TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
     const SceneFolder folder(cut_across_a_box);
     const Outcome outcome = drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "-e", "5"});
