@@ -1,4 +1,5 @@
 // A scene that misses its own tolerance ends with exit code 8 and keeps the frames before.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <json/json.h>
@@ -49,7 +50,7 @@ TEST(Tolerance, AClothThatStartsStrainedHasNoErrorBeforeTheFirstStep) {
             const Outcome outcome =
                 drape({"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite", "--set",
                        "/cloths/0/placement/scale=[1.05,1.05]", "--set",
-                       R"(/solver={"method":")" + method + R"(","substeps":200,"tolerance":)" + tolerance + "}"});
+                       fmt::format(R"(/solver={{"method":"{}","substeps":200,"tolerance":{}}})", method, tolerance)});
             EXPECT_EQ(outcome.code, 0) << outcome.err;
             EXPECT_THAT(outcome.err, Not(HasSubstr("the stretch error came to"))) << method;
             const Json::Value statistics = lasting_manifest(folder.out())["statistics"];
