@@ -142,6 +142,7 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
     inputs.wind.clear();
     inputs.colliders.clear();
+    inputs.collider_sets = model.colliders_move ? scene.solver.substeps : 1;
     inputs.stiffness.clear();
     if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))
         for (const Cloth& cloth : scene.cloths)

@@ -38,6 +38,7 @@ struct FrameInputs {
     std::vector<glsl::vec4> wind;
     std::vector<float> stiffness;                 ///< per cloth the factor of its stiffness; empty where none changes
     std::vector<glsl::ColliderRecord> colliders;  ///< per substep, list by list, in the scene's order
+    std::uint32_t collider_sets = 1;              ///< number of substeps that these are of; 1: of all
     std::shared_ptr<const FormLists> forms;       ///< of meshes that deform; null: there are none
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< per cloth: substep by substep, motion by motion
 };

@@ -144,8 +144,8 @@ void join_inputs(const SimulationModel& all, const std::vector<FrameInputs>& mem
     const std::uint32_t sets = all.colliders_move ? all.scene.solver.substeps : 1;
     for (std::uint32_t set = 0; set < sets; ++set)
         for (const FrameInputs& one : members) {
-            const auto count = static_cast<std::ptrdiff_t>(one.colliders.size() / sets);
-            const auto first = one.colliders.begin() + set * count;
+            const auto count = static_cast<std::ptrdiff_t>(one.colliders.size() / one.collider_sets);
+            const auto first = one.colliders.begin() + (one.collider_sets > 1 ? set * count : 0);
             joined.colliders.insert(joined.colliders.end(), first, first + count);
         }
 }

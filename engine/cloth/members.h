@@ -17,8 +17,8 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
 /// Returns why members of this shape take their dispatches one by one; nothing: they share them.
 std::optional<std::string> sharing_obstacle(const SimulationModel& model);
 
-/// Puts the inputs of all members of `all` in the place of others; where colliders of any move, each has records for
-/// every substep.
+/// Puts the inputs of all members of `all` in the place of others; where colliders of any move, each gets records for
+/// every substep, which for colliders at rest are those of the first.
 void join_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members, FrameInputs& joined);
 
 }  // namespace drape

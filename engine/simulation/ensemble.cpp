@@ -43,7 +43,6 @@ Members made(const std::vector<SceneDescription>& scenes, const EnsembleControls
              const std::function<void(Members&)>& check_two) {
     if (scenes.empty()) throw Error("an ensemble needs a member");
     Members members;
-    bool colliders_move = false;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
         if (const auto found = shape_difference(scenes.front(), scenes[k]))
             throw Error(fmt::format(
@@ -52,9 +51,7 @@ Members made(const std::vector<SceneDescription>& scenes, const EnsembleControls
                 k, *found));
         members.push_back(std::make_unique<Member>(scenes[k], controls, options));
         if (members.size() == 2) check_two(members);
-        colliders_move = colliders_move || members.back()->model.colliders_move;
     }
-    for (const auto& member : members) member->model.colliders_move = colliders_move;
     return members;
 }
 

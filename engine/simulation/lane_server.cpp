@@ -30,7 +30,8 @@ void fill(const SimulationModel& model, std::uint32_t substeps, FrameInputs& inp
     inputs.wind.assign(model.windy ? substeps * (model.weighs ? 2u : 1u) : 0u, {});
     std::size_t records = 0;
     for (const std::vector<KeptCollider>& list : model.kept_colliders) records += list.size();
-    inputs.colliders.assign(records * (model.colliders_move ? substeps : 1u), {});
+    inputs.colliders.assign(records, {});
+    inputs.collider_sets = 1;
     inputs.pins.resize(model.cloths.size());
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         inputs.pins[cloth].assign(model.cloths[cloth].dynamic_pins.size() * substeps, {});
@@ -259,17 +260,15 @@ void LaneServer::write_frame(const std::vector<std::size_t>& places, std::uint32
     solver_.write_constants(*pool_, device_slot, substeps);
 }
 
-/// The statistics of a frame that was not simulated look for colliders where the last substep of the joint run has
-/// them.
+/// The statistics of a frame that was not simulated look for colliders where its last substep has them.
 void LaneServer::write_look(const std::vector<std::size_t>& places) {
     const std::uint32_t substeps = all_.scene.solver.substeps;
     for (std::size_t place = 0; place < models_.size(); ++place) fill(*models_[place], substeps, inputs_[place]);
     for (const std::size_t place : places) {
         const LaneWork& work = *waiting_[place].work;
         const FrameInputs own = frame_inputs(*work.run, work.frame);
-        const std::size_t sets = models_[place]->colliders_move ? work.run->scene.solver.substeps : 1;
-        const auto count = static_cast<std::ptrdiff_t>(own.colliders.size() / sets);
-        std::copy(own.colliders.end() - count, own.colliders.end(), inputs_[place].colliders.end() - count);
+        const auto count = static_cast<std::ptrdiff_t>(own.colliders.size() / own.collider_sets);
+        inputs_[place].colliders.assign(own.colliders.end() - count, own.colliders.end());
     }
     join_inputs(all_, inputs_, joined_);
     solver_.write_inputs(*pool_, device_slot, joined_, substeps);

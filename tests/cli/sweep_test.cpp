@@ -124,6 +124,22 @@ TEST_F(Sweep, RunsByMethodAutoThatGoOnTogetherHaveTheBytesOfEachAlone) {
     EXPECT_GT(substeps.size(), 1u);
 }
 
+TEST_F(Sweep, RunsByMethodAutoOfWhichSomeHaveMovingCollidersHaveTheBytesOfEachAlone) {
+    write_text(folder / "spec.json",
+               R"({"scene": "scene.json", "seed": 7, "count": 3,
+        "set": {"/time/frames": 12, "/solver": {"method": "auto"},
+                "/cloths/0/placement": {"origin": [-0.5, 0.02, 0], "v": [0, 0, 1]}, "/cloths/0/pins": []},
+        "vary": {"/colliders/planes": {"grid": [[{}], [{"path": [{"t": 0}, {"t": 0.2, "translate": [0, 0.1, 0]}]}],
+                                                [{"friction": 0}]]}}})");
+    EXPECT_EQ(sweep({"--index", "0-2"}, "together").code, 0);
+    for (int index = 0; index < 3; ++index) {
+        EXPECT_EQ(sweep({"--index", std::to_string(index)}, "alone").code, 0) << index;
+        const std::string name = fmt::format("/runs/{:04}", index);
+        EXPECT_EQ(file("together" + name + "/positions.npz"), file("alone" + name + "/positions.npz")) << index;
+        EXPECT_EQ(lasting_manifest(folder / ("together" + name)), lasting_manifest(folder / ("alone" + name)));
+    }
+}
+
 /// Each has the proof about its own cloth.
 TEST_F(Sweep, RunsInWhichClothMeetsItselfThatGoOnTogetherHaveTheBytesOfEachAlone) {
     write_text(folder / "spec.json",
