@@ -85,7 +85,7 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"image", ".image"},
                                                      {"oracle", ".oracles[0]"}};
 
-std::string pointer_of(std::string path) {
+std::string pointer_of(const std::string& path) {
     std::string pointer;
     for (const char c : path) {
         if (c == '.' || c == '[') pointer += '/';
