@@ -262,6 +262,11 @@ class Ensembles(Validated):
         self.simulations.append(drape.Ensemble(scene, members, validate=True, **options))
         return self.simulations[-1]
 
+    def test_members_of_another_shape_are_asked_for_wrongly(self):
+        with self.assertRaisesRegex(drape.Error, "member 1 is of another shape than member 0: /cloths/0/grid") as caught:
+            drape.Ensemble(sheet(), [{}, {"/cloths/0/grid": [4, 4]}])
+        self.assertEqual(caught.exception.exit_code, 2)
+
     def test_every_member_is_its_scene_alone(self):
         density = "/cloths/0/areal_density"
         members = [{density: 0.1}, {}, {density: 0.3, "/gravity": [1, -9, 0]}]

@@ -371,7 +371,7 @@ number of its own: --index I anywhere gives the bytes that the whole sweep
 gives. Grids are counted through, the last pointer in alphabetical order
 fastest; without a count every combination runs once.
 
-Runs of one shape whose method is named share a process and its dispatches.
+Runs of one shape share a process and its dispatches, where they gain by it.
 
 DIR gets runs/0000/ (as of `drape simulate`), jobs/0000.json (how it ended) and
 results.csv, a line per run, failed ones too: exit code 9 when there is one

@@ -230,7 +230,8 @@ void define_ensemble(py::module_& module) {
              py::arg("colliders") = py::none(),
              "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
              "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
-             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, in order. "
+             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
+             "order. "
              "What is not given stays as it is. Raises ActionError, and then no member went on.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(

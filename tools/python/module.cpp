@@ -196,8 +196,8 @@ py::array_t<float> uv(const PySimulation& self, const py::object& which) {
 class Errors {
   public:
     explicit Errors(py::module_& module) {
-        base_ = make(module, "Error", PyExc_RuntimeError, ExitCode::internal,
-                     "What drape's library cannot do; exit_code is the command line's.");
+        base_ = make(module, "Error", PyExc_RuntimeError, ExitCode::usage,
+                     "The library was asked for what it cannot do; exit_code is the command line's.");
         action_ = make(module, "ActionError", base_.ptr(), ExitCode::usage,
                        "Actions that an ensemble cannot take; `member` says whose.");
         for (const auto& [code, name, help] : kinds) classes_[code] = make(module, name, base_.ptr(), code, help);
