@@ -319,8 +319,9 @@ struct SolverSettings {
     /// Whether companion runs estimate the position error. Left out: those of method `auto` do, of named ones not.
     std::optional<bool> estimate_error;
     CollideWhen collide = CollideWhen::iteration;
-    bool tethers = false;         ///< no particle gets farther from where the cloth is held than the cloth reaches
-    double strain_damping = 0.2;  ///< method `explicit`: damping of a spring's strain rate over its stiffness times h
+    bool tethers = false;  ///< no particle gets farther from where the cloth is held than the cloth reaches
+    /// Method `explicit`: damping of the strain rate of springs stretched by more than a tenth, over stiffness times h.
+    double strain_damping = 0.2;
     bool operator==(const SolverSettings&) const = default;
 };
 
