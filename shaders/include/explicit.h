@@ -22,28 +22,31 @@ SHARED ivec4 neighbour(int k) {
 }
 
 /// Springs are damped where they are stretched by more than this share of their length, as in a tangle, which gains
-/// energy otherwise. Fabric is not, so its motion is that of springs alone.
-const float damped_strain = 0.1f;
+/// energy otherwise. Fabric is not: there a share of the damping is left, which takes what rounding gives to the
+/// shortest waves, and changes the motion by less than the length of a step does.
+const float damped_strain = 0.1f, calm_share = 0.05f;
 
 /// kappa of a spring that is longer than its rest length by `excess` (m).
 SHARED float damping_at(float excess, float rest_length, float strain_damping) {
     precise float most = damped_strain * rest_length;
-    return excess > most ? strain_damping : 0.0f;
+    precise float calm = calm_share * strain_damping;
+    return excess > most ? strain_damping : calm;
 }
 
 /// Pull of one spring on the particle that `edge` starts from: stiffness [(1 - L/|r|) + kappa (du . r)/|r|^2] r, r =
 /// `edge` and du = `closing`, the change of r in the last substep (m), times `compression` where the spring is pushed
-/// together; kappa is that of damping_at. With the stiffness times phi h^2/m_inner it is a displacement (m) of an inner particle. From the other end
-/// every operation sees the negated numbers, so the two pulls are opposite to the bit (but for the signs of zeros,
-/// which explicit_increment loses) and momentum is kept but for the rounding of the sums. A spring of zero length has
-/// no direction and does not pull.
+/// together; kappa is damping_at's. With the stiffness times phi h^2/m_inner it is a displacement (m) of an inner
+/// particle. From the other end every operation sees the negated numbers, so the two pulls are opposite to the bit (but
+/// for the signs of zeros, which explicit_increment loses) and momentum is kept but for the rounding of the sums. A
+/// spring of zero length has no direction and does not pull.
 SHARED vec3 spring_pull(vec3 edge, vec3 closing, float rest_length, float stiffness, float compression,
                         float strain_damping) {
     precise float length_squared = ordered_dot(edge, edge);
     precise float current = sqrt(length_squared);
     precise float excess = current - rest_length;
     precise float strain = excess / current;
-    precise float rate = damping_at(excess, rest_length, strain_damping) * (ordered_dot(closing, edge) / length_squared);
+    precise float rate =
+        damping_at(excess, rest_length, strain_damping) * (ordered_dot(closing, edge) / length_squared);
     precise float pull = acting_share(stiffness, compression, excess) * (strain + rate);
     precise vec3 total = edge * (length_squared > 0.0f ? pull : 0.0f);
     return total;

@@ -32,7 +32,7 @@ TEST(ExplicitTest, AHangingSheetStretchesByItsTension) {
     ASSERT_TRUE(model.cloths[0].scheme.compromises.empty());
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 120; ++frame) twin.run_frame(frame);
-    // What rounds excites waves of some 1e-7 m, of which nothing but the air takes energy: the mean tells the strain.
+    // Rounding excites waves of some 1e-7 m, which hardly anything damps: the mean tells the strain.
     constexpr std::uint32_t columns = 9, frames = 60;
     std::vector<double> lengths(columns * links);
     for (std::uint32_t frame = 121; frame <= 120 + frames; ++frame) {
@@ -86,20 +86,28 @@ TEST(ExplicitTest, AnUndampedSwingKeepsItsEnergyForTenSeconds) {
     EXPECT_NEAR(with, 1, 0.05);
 }
 
-TEST(ExplicitTest, StrainDampingLeavesFabricAlone) {
-    const SimulationModel undamped(swing(16, 56, 0)), damped(swing(16, 56, 0.2));
-    Twin without(undamped), with(damped);
-    for (std::uint32_t frame = 1; frame <= 60; ++frame) {
-        without.run_frame(frame);
-        with.run_frame(frame);
-    }
-    const auto& expected = without.cloth(0)[Field::position];
-    const auto& found = with.cloth(0)[Field::position];
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        ASSERT_EQ(expected[i].x, found[i].x) << i;
-        ASSERT_EQ(expected[i].y, found[i].y) << i;
-        ASSERT_EQ(expected[i].z, found[i].z) << i;
-    }
+/// Returns where the sheet is after half a second.
+std::vector<Vec3> swung(std::uint32_t substeps, double strain_damping) {
+    const SimulationModel model(swing(16, substeps, strain_damping));
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 30; ++frame) twin.run_frame(frame);
+    std::vector<Vec3> positions;
+    for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i)
+        positions.push_back(test::position_of(twin.cloth(0), i));
+    return positions;
+}
+
+TEST(ExplicitTest, StrainDampingHardlyChangesTheMotionOfFabric) {
+    const std::vector<Vec3> exact = swung(448, 0);
+    const auto error = [&](double strain_damping) {
+        const std::vector<Vec3> found = swung(56, strain_damping);
+        double sum = 0;
+        for (std::size_t i = 0; i < exact.size(); ++i) sum += std::pow(test::distance(exact[i], found[i]), 2);
+        return std::sqrt(sum / static_cast<double>(exact.size()));
+    };
+    const double without = error(0), with = error(SolverSettings{}.strain_damping);
+    std::printf("[ measured ] swing 16^2 after 0.5 s: %.2e m off without damping, %.2e with\n", without, with);
+    EXPECT_LT(with, 3 * without);
 }
 
 TEST(ExplicitTest, MomentumIsKept) {
