@@ -1,5 +1,5 @@
-// Companions of a run are the same scene, run beside it with fewer substeps. How far they are from it and from each
-// other tells how far the run is from the exact motion.
+// A run's companion is the same scene, run beside it with other substeps. How far the two are apart tells how far the
+// run is from the exact motion.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,18 @@
 
 namespace drape {
 
-/// The substeps of the runs beside one.
-struct Companions {
-    std::uint32_t companion;
-    std::uint32_t coarser;  ///< 0: there is none, in any frame
-};
-/// Returns those beside a frame of so many substeps: a quarter and an eighth, or a half and a quarter where that were
-/// fewer than four and two. Explicit steps, which soften the cloth where they are fewer than `auto` takes, have one
-/// companion with half as many more instead (or a third less, where that is too many).
-Companions companions_of(const Method& method, std::uint32_t substeps);
+/// Returns the companion's substeps beside a frame of so many: a quarter, but four where a half is that or more, and a
+/// half of fewer. Explicit steps, which soften the cloth where they are fewer than `auto` takes, have half as many more
+/// instead (or a third less, where that is too many).
+std::uint32_t companion_substeps(const Method& method, std::uint32_t substeps);
 
-/// The mean power of the step's length with which errors grew in the scenes that were tried.
-inline constexpr double usual_order = 1.4;
+/// Returns the power of the step's length with which errors grow over a run, which explains companions' distances best
+/// (docs/solvers.md). Free motion is of second order, contact and solves that end early of less; where a closed loop
+/// changes the substeps of a method that it probes, hardly the first is left.
+double error_order(const Method& method, bool closed_loop);
 
-/// How many times as long the substeps of the runs beside one are as its own.
-struct StepRatios {
-    double companion = 1, coarser = 1;
-};
-StepRatios step_ratios(const Companions& with, std::uint32_t substeps);
-
-/// Returns Richardson's estimate of a run's error. An error E of steps that grows with their length to the power p is
-/// `apart` = E (r^p - 1) from the companion with steps r times as long, and that `further` = E (s^p - r^p) from the
-/// coarser one, s; the two tell p, taken between 0.7 (contact, and errors that substeps so long hardly show) and 3
-/// (free motion has 2, solves that come to converge more). Without one that is coarser p is the usual one.
-double richardson_error(const StepRatios& ratios, double apart, double further);
+/// Returns the error of a run that is `apart` from a companion whose steps are `ratio` times as long: errors that grow
+/// with the step's length to the power p put them apart by E |ratio^p - 1| (Richardson).
+double richardson_error(double order, double ratio, double apart);
 
 }  // namespace drape

@@ -22,27 +22,25 @@ bool compares_at(const SimulationModel& model, std::uint32_t last, bool probes) 
 
 MotionError::MotionError(const SimulationModel& model) : model_(model), held_(model.cloths.size()) {}
 
-/// Few substeps have companions of other ratios than many. What runs are apart by was made with those that there were
-/// at the time, the more by the longer substeps.
+double MotionError::order() const { return error_order(row_of(model_.scene.solver.method), model_.closed_loop()); }
+
+/// Few substeps have a companion of another ratio than many. What runs are apart by was made with the one that there
+/// was at the time, the more by the longer substeps.
 void MotionError::weigh(std::uint32_t substeps, double passed, double kept) {
-    const StepRatios now = step_ratios(model_.companions(substeps), substeps);
-    const double made = passed * std::pow(substeps, -usual_order), before = kept * weight_;
+    const double now = static_cast<double>(substeps) / model_.companion_substeps(substeps);
+    const double made = passed * std::pow(substeps, -order()), before = kept * weight_;
     weight_ = before + made;
-    const auto mean = [&](double earlier, double one) {
-        return weight_ > 0 ? (before * earlier + made * one) / weight_ : one;
-    };
-    ratios_ = {mean(ratios_.companion, now.companion), mean(ratios_.coarser, now.coarser)};
+    ratio_ = weight_ > 0 ? (before * ratio_ + made * now) / weight_ : now;
 }
 
-void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart,
-                      std::span<const double> further) {
+void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart) {
     const double passed = (frame - last_frame_) / model_.scene.time.fps, kept = std::exp(-passed / hold);
     const double time = std::max(frame / model_.scene.time.fps, least_time);
     weigh(substeps, passed, kept);
     last_frame_ = frame;
     error_ = share_ = 0;
     for (std::size_t cloth = 0; cloth < apart.size(); ++cloth) {
-        const double error = richardson_error(ratios_, apart[cloth], further.empty() ? 0 : further[cloth]);
+        const double error = richardson_error(order(), ratio_, apart[cloth]);
         held_[cloth] = std::max(error, kept * held_[cloth]);
         error_ = std::max(error_, held_[cloth]);
         share_ = std::max(share_, held_[cloth] / (motion_limit(model_, cloth) * time));

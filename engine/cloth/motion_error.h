@@ -12,7 +12,7 @@
 
 namespace drape {
 
-/// The stated error is within this factor of the true one in three of four scenes (docs/accuracy.md).
+/// The stated error is within this factor of the true one in four of five scenes (docs/accuracy.md).
 inline constexpr double motion_error_confidence = 3;
 
 /// Returns whether runs are compared at the end of frame `last` of a segment: at that of a probe, and as often as
@@ -23,10 +23,8 @@ class MotionError {
   public:
     explicit MotionError(const SimulationModel& model);
 
-    /// Takes, at the end of a frame of so many substeps, each cloth's RMS distance (m) from the companion's, and that
-    /// one's from the coarser run's (empty: there is none).
-    void saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart,
-             std::span<const double> further);
+    /// Takes, at the end of a frame of so many substeps, each cloth's RMS distance (m) from the companion's.
+    void saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart);
     /// Returns the estimated RMS position error of the worst cloth, m; NaN where nothing was seen.
     double error() const { return error_; }
     /// Returns the estimate over what the motion's limit allows until then, of the worst cloth.
@@ -41,16 +39,17 @@ class MotionError {
     /// Writes or reads what it knows. Returns whether what was read can be.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(held_, ratios_.companion, ratios_.coarser, weight_, last_frame_, error_, share_);
+        archive(held_, ratio_, weight_, last_frame_, error_, share_);
         return held_.size() == model_.cloths.size();
     }
 
   private:
+    double order() const;
     void weigh(std::uint32_t substeps, double passed, double kept);
 
     const SimulationModel& model_;
     std::vector<double> held_;  ///< by cloth, m: errors hold on, since runs of a swing meet now and then
-    StepRatios ratios_;         ///< with which errors were made
+    double ratio_ = 1;          ///< of the companion's step to the run's, with which errors were made
     double weight_ = 0;         ///< of what was made so far
     std::uint32_t last_frame_ = 0;
     double error_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;

@@ -22,7 +22,7 @@ class Sensitivity {
     explicit Sensitivity(const SimulationModel& model) : model_(model) {}
 
     /// Returns whether the disturbed run is to begin at the end of this frame. A frame is not `predictable` where more
-    /// substeps do not reduce a probe's error, whatever the companions say: where cloth buckles two runs may happen to
+    /// substeps do not reduce a probe's error, whatever the companion says: where cloth buckles two runs may happen to
     /// go one way.
     bool begins(std::uint32_t frame, const MotionError& error, bool predictable) const;
     void begin(std::uint32_t frame);

@@ -98,14 +98,14 @@ SimulationModel::StretchLimits SimulationModel::stretch_limits() const {
             solver.tolerance_worst > 0 ? solver.tolerance_worst : default_tolerance_worst};
 }
 
-Companions SimulationModel::companions(std::uint32_t substeps) const {
-    return companions_of(row_of(scene.solver.method), substeps);
+std::uint32_t SimulationModel::companion_substeps(std::uint32_t substeps) const {
+    return drape::companion_substeps(row_of(scene.solver.method), substeps);
 }
 
 std::uint32_t SimulationModel::most_substeps() const {
     const std::uint32_t own = scene.solver.substeps;
     if (closed_loop()) return substep_rungs(row_of(scene.solver.method)).back();
-    return has_companions() ? std::max(own, companions(own).companion) : own;
+    return has_companions() ? std::max(own, companion_substeps(own)) : own;
 }
 
 bool SimulationModel::ends_iterations() const {
@@ -152,13 +152,11 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
         all.push_back({"questions whether a substep needs another iteration",
                        "on a GPU the iterations of small cloth cost less: all are done"});
     if (!has_companions())
-        all.push_back({"companion runs",
+        all.push_back({"the companion run",
                        closed_loop()
                            ? "solver.estimate_error is false"
                            : "the position error of a method that is named is estimated where solver.estimate_error "
                              "says so"});
-    else if (companions(scene.solver.substeps).coarser == 0)
-        all.push_back({"the coarser companion run", "one companion, with more substeps, tells the error"});
     for (const ClothModel& cloth : cloths) {
         all.insert(all.end(), cloth.skipped.begin(), cloth.skipped.end());
         all.insert(all.end(), cloth.scheme.skipped.begin(), cloth.scheme.skipped.end());

@@ -51,7 +51,7 @@ struct SimulationModel {
     bool has_companions() const { return scene.solver.estimate_error.value_or(closed_loop()); }
     /// Returns whether states are held against each other, or change their substeps.
     bool compares_states() const { return closed_loop() || has_companions(); }
-    Companions companions(std::uint32_t substeps) const;
+    std::uint32_t companion_substeps(std::uint32_t substeps) const;
     /// A closed loop keeps these largest stretch errors: the scene's, or the defaults.
     struct StretchLimits {
         double rms, worst;

@@ -79,10 +79,9 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
     result.least_substeps = std::min(least, method.most_substeps);
     result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
     const bool has_companions = scene.solver.estimate_error.value_or(true);
-    const Companions with = has_companions ? companions_of(method, result.substeps) : Companions{};
+    const std::uint32_t beside = has_companions ? companion_substeps(method, result.substeps) : 0;
     for (const Cloth& cloth : scene.cloths)
-        result.predicted_ms +=
-            (result.substeps + with.companion + with.coarser) * substep_ms(method, scene, cloth, device);
+        result.predicted_ms += (result.substeps + beside) * substep_ms(method, scene, cloth, device);
     return result;
 }
 

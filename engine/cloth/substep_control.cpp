@@ -76,7 +76,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
     if (turned_back_) return accept_unpredictable(judgement);
     if (judgement.sensitive) slack_ = std::max(slack_, sensitive_slack);
-    const double worst = std::max(judgement.stretch, judgement.motion / slack_);
+    const double worst = std::max(judgement.excess(), judgement.motion / slack_);
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
     if (worst <= 1 && lags(judgement)) {
         if (lagged_.substeps == 0) lagged_ = {static_cast<double>(segment_.substeps), judgement.lag};
@@ -101,7 +101,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
 
 /// Returns whether at the top only the motion fails, and a quarter of its substeps was not tried, to tell if more help.
 bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
-    return !hopeless_ && segment_.probes && judgement.stretch <= 1 && std::isfinite(judgement.motion);
+    return !hopeless_ && segment_.probes && judgement.excess() <= 1 && std::isfinite(judgement.motion);
 }
 
 /// Returns whether something drawn may pass a collider that more substeps would stop. An attempt with a quarter of the
@@ -139,7 +139,7 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
 /// leaves in rigid cloth becomes speed when the step shrinks a hundredfold.
 bool SubstepControl::turn_back(const Judgement& judgement) {
     const bool only_motion =
-        judgement.plausible && judgement.stretch <= 1 && std::isfinite(judgement.motion) && !passes(judgement);
+        judgement.plausible && judgement.excess() <= 1 && std::isfinite(judgement.motion) && !passes(judgement);
     if (only_motion) only_motion_failed_ = tried_;
     turned_back_ = !judgement.plausible && only_motion_failed_.has_value();
     return turned_back_;
@@ -147,7 +147,7 @@ bool SubstepControl::turn_back(const Judgement& judgement) {
 
 /// Judges the attempt with a quarter of the top's substeps.
 SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
-    const bool as_good = judgement.stretch <= 1 && judgement.motion < 2 * top_motion_;
+    const bool as_good = judgement.excess() <= 1 && judgement.motion < 2 * top_motion_;
     top_motion_ = 0;
     if (as_good) return accept_unpredictable(judgement);
     hopeless_ = true;
@@ -190,7 +190,7 @@ bool SubstepControl::hardly_fell(const Judgement& judgement) const {
 
 /// Returns whether four times the substeps or more have hardly reduced it.
 bool SubstepControl::futile(const Judgement& judgement) const {
-    if (judgement.stretch > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
+    if (judgement.excess() > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
     if (passes(judgement)) return false;
     return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
 }
@@ -212,8 +212,8 @@ void SubstepControl::learn_order(const Judgement& judgement) {
 double SubstepControl::wanted_factor(const Judgement& judgement) const {
     constexpr double margin = 1.1, most = 4;
     const double motion = judgement.motion / slack_;
-    double factor = margin * std::sqrt(judgement.stretch);
-    if (judgement.stretch <= 1 && before_.substeps > 0 && hardly_fell(judgement))
+    double factor = margin * std::sqrt(judgement.excess());
+    if (judgement.excess() <= 1 && before_.substeps > 0 && hardly_fell(judgement))
         factor = most * before_.substeps / segment_.substeps;
     else if (motion > 1)
         factor = std::max(factor, margin * std::pow(motion, 1 / order_));
@@ -222,8 +222,8 @@ double SubstepControl::wanted_factor(const Judgement& judgement) const {
 
 void SubstepControl::refine(const Judgement& judgement) {
     const double factor = wanted_factor(judgement);
-    if (judgement.stretch > 1) needed_ = tried_ + 1;
-    const bool measured = segment_.probes && judgement.stretch <= 1;  // else its motion is not known
+    if (judgement.excess() > 1) needed_ = tried_ + 1;
+    const bool measured = segment_.probes && judgement.excess() <= 1;  // else its motion is not known
     if (measured && (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps))
         before_ = {static_cast<double>(segment_.substeps), judgement.motion};
     tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));

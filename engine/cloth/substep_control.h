@@ -20,13 +20,16 @@ std::uint32_t first_rung(const Method& method, double substeps);
 /// An attempt is judged by its errors over their limits, of the worst frame and cloth. Above 1 it fails; what is not
 /// finite counts as infinite.
 struct Judgement {
-    double stretch = 0;         ///< RMS, worst spring or what the watch looks at, whichever is worse
+    double stretch = 0;         ///< RMS or worst spring, whichever is worse
+    double watch = 0;           ///< speed, distance, energy and what else the watch bounds: not of substeps' making
     double motion = 0;          ///< a probe's
     double coarse_stretch = 0;  ///< that of its run with half the substeps
     bool plausible = true;      ///< the watch finds it plausible (cloth/watch.h)
     double passage = 0;         ///< ways by colliders (cloth/passage_watch.h), which are kept as far as substeps go
     bool sensitive = false;     ///< equally exact runs part (cloth/sensitivity.h): positions have no truth
     double lag = 0;             ///< how far truncation held a particle back, which is kept as far as substeps help
+
+    double excess() const { return std::max(stretch, watch); }
 };
 
 /// Frames of a segment are judged, kept or done again together: a single one, or the few of a probe, which are run with
@@ -38,7 +41,7 @@ struct Segment {
     bool operator==(const Segment&) const = default;
 };
 
-/// The share that a run without companions tells (SubstepControl::accumulated).
+/// The share that a run without a companion tells (SubstepControl::accumulated).
 inline constexpr double unknown_share = std::numeric_limits<double>::quiet_NaN();
 
 class SubstepControl {
@@ -56,7 +59,7 @@ class SubstepControl {
     Verdict judge(const Judgement& judgement);
     /// Returns whether what an attempt's frames so far show lets it fail, so that the others need not be run.
     bool fails(const Judgement& judgement) const {
-        return (judgement.stretch > 1 && !at_top()) || passes(judgement) || lags(judgement);
+        return (judgement.excess() > 1 && !at_top()) || passes(judgement) || lags(judgement);
     }
     const Segment& segment() const { return segment_; }
     bool at_top() const { return tried_ + 1 == rungs_.size(); }

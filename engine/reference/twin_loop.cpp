@@ -53,7 +53,6 @@ TwinLoop::TwinLoop(const SimulationModel& model)
       state_(model),
       state_substeps_(model.scene.solver.substeps),
       companion_{state_, state_substeps_},
-      coarser_(companion_),
       disturbed_(companion_),
       position_error_(model),
       sensitivity_(model) {}
@@ -95,14 +94,11 @@ void TwinLoop::follow_segment(const Twin& end, FrameEffort& effort) {
     if (sensitivity_.is_sensitive()) return note_motion(position_error_, sensitivity_, effort);
     const Segment& segment = control_.segment();
     const std::uint32_t last = next_ + segment.frame_count - 1;
-    const Companions with = model_.companions(segment.substeps);
-    follow(companion_, with.companion);
-    if (with.coarser > 0) follow(coarser_, with.coarser);
-    if (sensitivity_.runs()) follow(disturbed_, with.companion);
+    const std::uint32_t beside = model_.companion_substeps(segment.substeps);
+    follow(companion_, beside);
+    if (sensitivity_.runs()) follow(disturbed_, beside);
     if (!compares_at(model_, last, segment.probes)) return note_motion(position_error_, sensitivity_, effort);
-    const std::vector<double> further =
-        with.coarser > 0 ? differences(companion_.twin, coarser_.twin) : std::vector<double>();
-    position_error_.saw(last, segment.substeps, differences(end, companion_.twin), further);
+    position_error_.saw(last, segment.substeps, differences(end, companion_.twin));
     if (sensitivity_.runs()) sensitivity_.saw(last, differences(companion_.twin, disturbed_.twin), position_error_);
     if (sensitivity_.begins(last, position_error_, effort.predictable)) {
         sensitivity_.begin(last);
@@ -152,7 +148,8 @@ Judgement TwinLoop::attempt(std::uint32_t frame, std::vector<Twin>& frames) {
                                                           k == 0 ? before_ : attempt_statistics_[k - 1], found));
         if (model_.self_contact) judgement.lag = std::max(judgement.lag, lag_judgement(model_, fine.contact().record));
         judgement.plausible = judgement.plausible && implausible <= 1;
-        judgement.stretch = std::max({judgement.stretch, stretch, implausible});
+        judgement.stretch = std::max(judgement.stretch, stretch);
+        judgement.watch = std::max(judgement.watch, implausible);
         if (control_.fails(judgement)) return judgement;
         frames.push_back(fine);
     }

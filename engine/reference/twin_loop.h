@@ -52,7 +52,7 @@ class TwinLoop {
     std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
     Twin state_;
     std::uint32_t next_ = 1, state_substeps_;
-    Beside companion_, coarser_, disturbed_;
+    Beside companion_, disturbed_;
     double motion_error_ = 0;
     MotionError position_error_;
     Sensitivity sensitivity_;

@@ -342,8 +342,8 @@ const Object<SolverSettings> solver{
          "and for cloth of less than a metre 0.02 m/s times the root of its "
          "side in metres."},
         {"estimate_error", &SolverSettings::estimate_error, optional(boolean()),
-         "Whether the position error is estimated, by companion runs with a quarter and an eighth of the substeps "
-         "(explicit: half as many more): position_error_m in the manifest. Left out: method auto does, methods that "
+         "Whether the position error is estimated, by a companion run with a quarter of the substeps (explicit: half "
+         "as many more): position_error_m in the manifest. Left out: method auto does, methods that "
          "are named do not. false with auto: limits are kept all the same, at less cost, but no error of positions is "
          "stated, and chaos is not told from error."},
         {"tethers", &SolverSettings::tethers, boolean(),
@@ -352,9 +352,9 @@ const Object<SolverSettings> solver{
          "substeps, and biases its motion a little. A cloth's first cut ends its tethers."},
         {"strain_damping", &SolverSettings::strain_damping, number(unit_interval),
          "Explicit micro-steps: damping of the strain rate of springs that are stretched by more than a tenth, in "
-         "units "
-         "of their stiffness times the substep. Fabric is not, so it changes nothing there; below 0.2 cloth that is "
-         "tangled up may not calm down. Ignored (with a warning) by other methods."},
+         "units of their stiffness times the substep, and a twentieth of that of others, as in fabric, whose motion it "
+         "hardly changes. Below 0.2 cloth that is tangled up may not calm down. Ignored (with a warning) by other "
+         "methods."},
     },
     check_solver};
 

@@ -17,13 +17,13 @@ namespace drape {
 
 void FrameLoop::for_each_attempt(const std::function<void(Frame&)>& visit) {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(model_, state_substeps_, static_cast<StateSet>(set)))
+        for (const AttemptStep step : attempt_steps(model_, static_cast<StateSet>(set)))
             visit(attempt(step, static_cast<StateSet>(set)));
 }
 
 void FrameLoop::build_attempts() {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(model_, state_substeps_, static_cast<StateSet>(set))) {
+        for (const AttemptStep step : attempt_steps(model_, static_cast<StateSet>(set))) {
             Frame frame;
             solver_.declare(frame.graph, {}, model_, static_cast<StateSet>(set));
             solver_.add_attempt(frame.graph, step);
@@ -114,7 +114,8 @@ FrameLoop::Judged FrameLoop::run_fine(const Attempt& attempt, Judgement& judgeme
         const double implausible =
             std::max(watch_.excess(frame, judged.statistics), solver_.self_list_use(judged.self_record));
         judgement.plausible = judgement.plausible && implausible <= 1;
-        judgement.stretch = std::max({judgement.stretch, stretch_judgement(model_, judged.statistics), implausible});
+        judgement.stretch = std::max(judgement.stretch, stretch_judgement(model_, judged.statistics));
+        judgement.watch = std::max(judgement.watch, implausible);
         if (control_->fails(judgement)) return judged;
         if (!segment.probes) return judged;
         if (last) judgement.motion = motion_of(slot);
@@ -218,12 +219,12 @@ void FrameLoop::keep_segment(std::uint32_t frame, Judged single, const Asked& as
 void FrameLoop::give_up(std::uint32_t frame, const Judgement& judgement, const Asked& asked) {
     control_->keep_anyway();
     // A frame that is not finite, or not plausible, is told of when it is handed out.
-    if (!options_.keep_promises || !std::isfinite(judgement.stretch) || !judgement.plausible) return;
+    if (!options_.keep_promises || !std::isfinite(judgement.excess()) || !judgement.plausible) return;
     if (!control_->segment().probes) deliver_all(asked.finished);
-    const bool stretch = judgement.stretch > 1;
+    const bool stretch = judgement.excess() > 1;
     const std::string impossible = impossible_scene(model_, frame + control_->segment().frame_count - 1);
     const char* criterion = stretch ? "stretch error" : "estimated error of the motion";
-    const double times = stretch ? judgement.stretch : judgement.motion;
+    const double times = stretch ? judgement.excess() : judgement.motion;
     const std::string text = fmt::format(
         "the tolerance is missed: from frame {} on the {} is {:.3g} times its limit even with {} substeps of method "
         "{}, the most that method auto tries{}{}",

@@ -1,6 +1,6 @@
-// Beside a run others are simulated in images of their own: companions (cloth/motion_error.h), in a closed loop after
-// each segment that is kept, and there at times the disturbed run (cloth/sensitivity.h). Nothing of them is handed out
-// but how far they are from the run.
+// Beside a run others are simulated in images of their own: the companion (cloth/motion_error.h), in a closed loop
+// after each segment that is kept, and there at times the disturbed run (cloth/sensitivity.h). Nothing of them is
+// handed out but how far they are from the run.
 #include <algorithm>
 #include <cstring>
 
@@ -51,18 +51,6 @@ void FrameLoop::follow(StateSet set, std::uint32_t frame, std::uint32_t count, s
     }
 }
 
-Companions FrameLoop::follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
-                                             const Finished& finished) {
-    const Companions with = model_.companions(substeps);
-    follow(StateSet::companion, frame, count, with.companion, finished);
-    if (with.coarser > 0) follow(StateSet::coarser, frame, count, with.coarser, finished);
-    return with;
-}
-
-std::vector<double> FrameLoop::compared_companions(const Companions& with, const Finished& finished) {
-    return with.coarser > 0 ? compared(AttemptStep::compare_coarser, finished) : std::vector<double>();
-}
-
 std::vector<double> FrameLoop::compared(AttemptStep step, const Finished& finished) {
     const std::uint32_t slot = take_slot(finished);
     submit_parts(slot, {.parts = {{LanePart::Kind::attempt, StateSet::run, step}}});
@@ -75,18 +63,18 @@ void FrameLoop::follow_segment(std::uint32_t frame, bool predictable, const Fini
     if (sensitivity_.is_sensitive()) return;  // there is no error that could be told
     const Segment& segment = control_->segment();
     const std::uint32_t last = frame + segment.frame_count - 1;
-    const Companions with = follow_with_companions(frame, segment.frame_count, segment.substeps, finished);
-    if (sensitivity_.runs()) follow(StateSet::disturbed, frame, segment.frame_count, with.companion, finished);
+    const std::uint32_t beside = model_.companion_substeps(segment.substeps);
+    follow(StateSet::companion, frame, segment.frame_count, beside, finished);
+    if (sensitivity_.runs()) follow(StateSet::disturbed, frame, segment.frame_count, beside, finished);
     if (!compares_at(model_, last, segment.probes)) return;
-    const std::vector<double> further = compared_companions(with, finished);
-    position_error_.saw(last, segment.substeps, compared(AttemptStep::compare_companion, finished), further);
+    position_error_.saw(last, segment.substeps, compared(AttemptStep::compare_companion, finished));
     if (sensitivity_.runs())
         sensitivity_.saw(last, compared(AttemptStep::compare_disturbed, finished), position_error_);
     if (sensitivity_.begins(last, position_error_, predictable)) {
         sensitivity_.begin(last);
         const std::uint32_t slot = take_slot(finished);
         submit_parts(slot, {.parts = {{LanePart::Kind::attempt, StateSet::run, AttemptStep::disturb}}});
-        beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = with.companion;
+        beside_substeps_[static_cast<std::size_t>(StateSet::disturbed)] = beside;
     }
     control_->accumulated(sensitivity_.is_sensitive() ? 0 : position_error_.share());
 }

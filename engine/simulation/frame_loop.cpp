@@ -70,7 +70,7 @@ void FrameLoop::allocate_and_record() {
     }
     for_each_attempt([&](Frame& frame) { plans.emplace_back(&frame.graph, &frame.plan); });
     std::array<Frame, state_set_count> beside;  // their resources are those of every rung
-    for (const StateSet set : {StateSet::companion, StateSet::coarser, StateSet::disturbed})
+    for (const StateSet set : {StateSet::companion, StateSet::disturbed})
         if (Frame& frame = beside[static_cast<std::size_t>(set)]; has_set(set)) {
             frame = build_beside(model_, set);
             plans.emplace_back(&frame.graph, &frame.plan);
@@ -233,7 +233,7 @@ void FrameLoop::submit(std::uint32_t slot, std::uint32_t frame, FrameKind kind, 
     if (has.simulates && model_.has_companions())
         commands.push_back(this->commands(AttemptStep::compare_companion, slot));
     slots_.submit(slot, commands);
-    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt, {}};
+    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
     if (has.simulates && options_.meanwhile) options_.meanwhile();
 }
 
@@ -269,7 +269,6 @@ void FrameLoop::fit_lists(std::uint32_t slot, const Finished& finished) {
         begin_anew();
         const InFlight again = *in_flight_[slot];
         submit(slot, again.frame, again.kind, again.output);
-        in_flight_[slot]->further = again.further;
     }
 }
 
@@ -290,7 +289,7 @@ void FrameLoop::deliver(std::uint32_t slot, const Finished& finished) {
         for (graph::Timing& timing : own.recorded->timings(slot))
             result.timings.push_back({std::move(timing.name), timing.milliseconds});
     if (contents(done.kind).simulates && model_.has_companions()) {
-        position_error_.saw(done.frame, done.substeps, differences_in(slot), done.further);
+        position_error_.saw(done.frame, done.substeps, differences_in(slot));
         note_motion(position_error_, sensitivity_, result.effort);
     }
     if (contents(done.kind).simulates) note_self_contact(done.frame, self_record_in(slot));
@@ -397,12 +396,10 @@ bool FrameLoop::run(std::uint32_t last, const std::function<bool(std::uint32_t)>
                 tell_passed_over(frame + 1);
             continue;
         }
-        std::vector<double> further;
         if (model_.has_companions() && frame > 0)
-            further = compared_companions(follow_with_companions(frame, 1, state_substeps_, finished), finished);
+            follow(StateSet::companion, frame, 1, model_.companion_substeps(state_substeps_), finished);
         const std::uint32_t slot = take_slot(finished);
         submit(slot, frame, kind_of(frame, output, cutting), output);
-        in_flight_[slot]->further = std::move(further);
         if (model_.self_contact && frame > 0) fit_lists(slot, finished);
         if (cutting) take_cuts_of(slot, frame, finished);
     }

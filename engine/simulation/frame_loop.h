@@ -150,7 +150,6 @@ class FrameLoop {
         bool output = false;
         std::uint32_t substeps = 0;  ///< substeps of the state's history
         std::optional<Judged> judged;
-        std::vector<double> further;  ///< of a named method's companions (MotionError::saw)
     };
     /// A closed loop's frame at one number of substeps.
     struct Rung {
@@ -217,7 +216,7 @@ class FrameLoop {
     void take_cuts_of(std::uint32_t slot, std::uint32_t frame, const Finished& finished);
 
     // These are in closed_loop.cpp.
-    bool has_set(StateSet set) const { return drape::has_set(model_, state_substeps_, set); }
+    bool has_set(StateSet set) const { return drape::has_set(model_, set); }
     void build_attempts();
     Frame& attempt(AttemptStep step, StateSet set = StateSet::run) {
         return attempts_[static_cast<std::size_t>(set)][static_cast<std::size_t>(step)];
@@ -267,11 +266,6 @@ class FrameLoop {
     Frame build_beside(const SimulationModel& run, StateSet set);
     /// Simulates the kept segment's frames in the companion, and in the disturbed run where there is one, and compares.
     void follow_segment(std::uint32_t frame, bool predictable, const Finished& finished);
-    /// Simulates the companions of frames from `frame` on.
-    Companions follow_with_companions(std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
-                                      const Finished& finished);
-    /// Returns how far the two are apart, by cloth, m; nothing where there is but one.
-    std::vector<double> compared_companions(const Companions& with, const Finished& finished);
     /// Simulates frames in a set.
     void follow(StateSet set, std::uint32_t frame, std::uint32_t count, std::uint32_t substeps,
                 const Finished& finished);

@@ -20,7 +20,7 @@ std::vector<const SimulationModel*> pointers_to(const std::vector<SimulationMode
 
 bool compares(AttemptStep step) {
     using enum AttemptStep;
-    return step == compare || step == compare_companion || step == compare_coarser || step == compare_disturbed;
+    return step == compare || step == compare_companion || step == compare_disturbed;
 }
 
 bool is_frame(const LanePart& part) { return part.kind == LanePart::Kind::substeps; }
@@ -96,7 +96,7 @@ void LaneServer::plan_looks() {
 
 void LaneServer::plan_attempts() {
     for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const AttemptStep step : attempt_steps(all_, all_.scene.solver.substeps, static_cast<StateSet>(set))) {
+        for (const AttemptStep step : attempt_steps(all_, static_cast<StateSet>(set))) {
             Planned& planned = attempts_[set][static_cast<std::size_t>(step)];
             solver_.declare(planned.graph, {}, all_, static_cast<StateSet>(set));
             solver_.add_attempt(planned.graph, step);
@@ -143,7 +143,7 @@ void LaneServer::allocate() {
     record(look_);
     record(statistics_);
     for (std::size_t set = 0; set < state_set_count; ++set) {
-        for (const AttemptStep step : attempt_steps(all_, all_.scene.solver.substeps, static_cast<StateSet>(set)))
+        for (const AttemptStep step : attempt_steps(all_, static_cast<StateSet>(set)))
             record(attempts_[set][static_cast<std::size_t>(step)]);
         for (auto& [substeps, rung] : rungs_[set]) record(rung.planned);
     }

@@ -57,7 +57,7 @@ class LaneServer {
         std::uint32_t slot = 0;
     };
 
-    bool has(StateSet set) const { return has_set(all_, all_.scene.solver.substeps, set); }
+    bool has(StateSet set) const { return has_set(all_, set); }
     void plan_looks();
     void plan_attempts();
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans() const;

@@ -5,17 +5,16 @@
 
 namespace drape {
 
-bool has_set(const SimulationModel& model, std::uint32_t substeps, StateSet set) {
+bool has_set(const SimulationModel& model, StateSet set) {
     if (set == StateSet::run) return true;
     if (set == StateSet::disturbed && !model.closed_loop()) return false;
-    if (set == StateSet::coarser && model.companions(substeps).coarser == 0) return false;
     return model.has_companions();
 }
 
-std::vector<AttemptStep> attempt_steps(const SimulationModel& model, std::uint32_t substeps, StateSet set) {
+std::vector<AttemptStep> attempt_steps(const SimulationModel& model, StateSet set) {
     using enum AttemptStep;
     const bool closed = model.closed_loop(), meets = model.self_contact.has_value(), is_run = set == StateSet::run;
-    const auto has = [&](StateSet each) { return has_set(model, substeps, each); };
+    const auto has = [&](StateSet each) { return has_set(model, each); };
     if (!has(set)) return {};
     std::vector<AttemptStep> steps;
     if (!is_run || closed) steps.push_back(change_substep);
@@ -24,7 +23,6 @@ std::vector<AttemptStep> attempt_steps(const SimulationModel& model, std::uint32
     if (is_run && closed) steps.insert(steps.end(), {remember, compare});
     if (is_run && has(StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed});
     if (is_run && model.has_companions()) steps.push_back(compare_companion);
-    if (is_run && has(StateSet::coarser)) steps.push_back(compare_coarser);
     return steps;
 }
 
@@ -57,7 +55,7 @@ void FrameLoop::submit_in_lane(std::uint32_t slot, std::uint32_t frame, FrameKin
                   .frame = frame,
                   .run = &model_};
     options_.lane->submit(slot, work);
-    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt, {}};
+    in_flight_[slot] = InFlight{frame, kind, output, state_substeps_, std::nullopt};
 }
 
 void FrameLoop::wait(std::uint32_t slot) {

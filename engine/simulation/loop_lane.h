@@ -53,9 +53,9 @@ struct LaneResult {
 };
 
 /// Returns whether a loop with so many substeps has this set of the state.
-bool has_set(const SimulationModel& model, std::uint32_t substeps, StateSet set);
+bool has_set(const SimulationModel& model, StateSet set);
 /// Returns the steps that it takes in it.
-std::vector<AttemptStep> attempt_steps(const SimulationModel& model, std::uint32_t substeps, StateSet set);
+std::vector<AttemptStep> attempt_steps(const SimulationModel& model, StateSet set);
 
 class LoopLane {
   public:

@@ -129,11 +129,12 @@ ByteReader checked_part(const SimulationState& state, const char* name, const Si
 struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
         : device(given),
+          member(options.member),
           keep_promises(options.keep_promises),
           model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
           passages(model),
-          asked(taking_part(options.member, judging(loop_options(scene, options)))),
+          asked(taking_part(judging(loop_options(scene, options)))),
           loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
         if (given.parts_->drawing && asked.draw)
             pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
@@ -144,7 +145,7 @@ struct Simulation::Parts {
         return options;
     }
 
-    static FrameLoopOptions taking_part(const std::optional<EnsembleMember>& member, FrameLoopOptions options) {
+    FrameLoopOptions taking_part(FrameLoopOptions options) const {
         if (member) member->run->parts_->join(member->number, options);
         return options;
     }
@@ -191,6 +192,7 @@ struct Simulation::Parts {
     }
 
     Device device;
+    std::optional<EnsembleMember> member;  ///< outlives the loop, whose frames it shares
     bool keep_promises;
     SimulationModel model;
     Watch watch;

@@ -189,9 +189,6 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case AttemptStep::compare_companion:
             return add_compare(graph, pipelines, state, state[Field::position],
                                position_in(graph, state, StateSet::companion));
-        case AttemptStep::compare_coarser:
-            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
-                               position_in(graph, state, StateSet::coarser));
         case AttemptStep::disturb:
             return add_disturb(graph, pipelines, state, run);
         case AttemptStep::compare_disturbed:

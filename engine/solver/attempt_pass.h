@@ -13,11 +13,10 @@ enum class AttemptStep : std::uint8_t {
     remember,           ///< reads position, writes its copy
     compare,            ///< reads both, writes a record per workgroup for the host
     compare_companion,  ///< reads position here and in the companion's set, writes likewise
-    compare_coarser,    ///< reads position in the companion's set and in the coarser one's, writes likewise
     disturb,            ///< reads the companion's state, writes that of the disturbed run
     compare_disturbed,  ///< reads position in both, writes likewise
 };
-inline constexpr std::size_t attempt_step_count = 9;
+inline constexpr std::size_t attempt_step_count = 8;
 
 inline constexpr const char* attempt_name = "attempt";
 /// Host output buffer with the differences of a state's cloths (ClothState::name, count), difference_count each.

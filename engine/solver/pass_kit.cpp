@@ -9,8 +9,8 @@ namespace drape {
 namespace {
 
 std::string suffix_of(StateSet set) {
-    static constexpr std::array<const char*, state_set_count> suffixes = {
-        "", " of the companion", " of the coarser one", " of the disturbed run"};
+    static constexpr std::array<const char*, state_set_count> suffixes = {"", " of the companion",
+                                                                          " of the disturbed run"};
     return suffixes.at(static_cast<std::size_t>(set));
 }
 

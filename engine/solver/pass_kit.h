@@ -93,10 +93,9 @@ struct SceneInputs {
 enum class StateSet : std::uint8_t {
     run,        ///< what is handed out
     companion,  ///< with other substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
-    coarser,    ///< with half of those: how far these two are apart tells how errors fall with substeps
     disturbed,  ///< the companion but for next to nothing, at times: tells chaos from error (cloth/sensitivity.h)
 };
-inline constexpr std::size_t state_set_count = 4;
+inline constexpr std::size_t state_set_count = 3;
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set = StateSet::run);

@@ -17,39 +17,31 @@ namespace {
 const Method& line() { return row_of(SolverMethod::line); }
 const Method& explicit_steps() { return row_of(SolverMethod::explicit_steps); }
 
-TEST(MotionErrorTest, CompanionsHaveFewerSubstepsButOfExplicitStepsMore) {
+TEST(MotionErrorTest, TheCompanionHasFewerSubstepsButOfExplicitStepsMore) {
     for (const std::uint32_t substeps : {2u, 4u, 6u, 8u, 12u, 16u, 96u, 4096u}) {
-        const Companions with = companions_of(line(), substeps);
-        EXPECT_GT(with.companion, 0u);
-        EXPECT_LT(with.companion, substeps);
-        EXPECT_GT(with.coarser, 0u) << "a run that is left out for some frames is behind the others for ever";
-        EXPECT_EQ(with.coarser<with.companion, substeps> 2) << substeps;
-        EXPECT_GT(companions_of(explicit_steps(), 40).companion, 40u);
+        EXPECT_GT(companion_substeps(line(), substeps), 0u);
+        EXPECT_LE(companion_substeps(line(), substeps), substeps / 2);
     }
+    EXPECT_EQ(companion_substeps(line(), 96), 24u);
+    EXPECT_EQ(companion_substeps(line(), 8), 4u) << "longer substeps tell nothing in contact";
+    EXPECT_EQ(companion_substeps(explicit_steps(), 40), 60u);
     // At the most that a loop takes there are no more.
-    EXPECT_LT(companions_of(explicit_steps(), explicit_steps().most_substeps).companion,
-              explicit_steps().most_substeps);
+    EXPECT_LT(companion_substeps(explicit_steps(), explicit_steps().most_substeps), explicit_steps().most_substeps);
 }
 
-TEST(MotionErrorTest, RichardsonsEstimateIsExactForAnErrorOfOneOrder) {
-    const double constant = 0.3;
-    for (const double order : {0.7, 1.0, 1.5, 2.0, 3.0})
-        for (const std::uint32_t substeps : {4u, 6u, 8u, 12u, 32u, 96u}) {
-            const auto error = [&](double n) { return constant * std::pow(n, -order); };
-            const Companions with = companions_of(line(), substeps);
-            const double apart = error(with.companion) - error(substeps),
-                         further = error(with.coarser) - error(with.companion);
-            EXPECT_NEAR(richardson_error(step_ratios(with, substeps), apart, further), error(substeps),
-                        1e-6 * error(substeps))
-                << order << ", " << substeps;
+TEST(MotionErrorTest, RichardsonsEstimateIsExactForAnErrorOfThatOrder) {
+    EXPECT_LT(error_order(line(), true), error_order(line(), false)) << "changes of substeps leave less";
+    for (const Method* method : {&line(), &explicit_steps()})
+        for (const std::uint32_t substeps : {4u, 6u, 8u, 12u, 32u, 96u, 4096u}) {
+            const double order = error_order(*method, substeps < 10);
+            const auto error = [order](double n) { return 0.3 * std::pow(n, -order); };
+            const std::uint32_t beside = companion_substeps(*method, substeps);
+            const double apart = std::abs(error(beside) - error(substeps));
+            EXPECT_NEAR(richardson_error(order, double(substeps) / beside, apart), error(substeps),
+                        1e-9 * error(substeps))
+                << method->name() << ", " << substeps;
         }
-    EXPECT_EQ(richardson_error({4, 8}, 0, 0), 0);
-}
-
-TEST(MotionErrorTest, WithoutACoarserRunTheOrderIsTheUsualOne) {
-    const auto error = [](double n) { return std::pow(n, -1.4); };
-    const Companions more = companions_of(explicit_steps(), 40);
-    EXPECT_NEAR(richardson_error(step_ratios(more, 40), error(40) - error(more.companion), 0), error(40), 1e-9);
+    EXPECT_EQ(richardson_error(1, 4, 0), 0);
 }
 
 /// Two cloths, the second twice the size: its error may be twice as large.
@@ -67,19 +59,18 @@ TEST(MotionErrorTest, TheWorstClothCountsAndAnErrorHoldsOn) {
     const SimulationModel model(two_cloths());
     MotionError error(model);
     EXPECT_TRUE(std::isnan(error.error()));
-    const Companions with = model.companions(16);
-    const std::vector<double> further(with.coarser > 0 ? 2 : 0, 0.02);
     const auto estimate = [&](double apart) {
-        return richardson_error(step_ratios(with, 16), apart, further.empty() ? 0 : 0.02);
+        return richardson_error(error_order(row_of(model.scene.solver.method), model.closed_loop()),
+                                16.0 / model.companion_substeps(16), apart);
     };
-    error.saw(25, 16, std::vector{0.01, 0.03}, further);
+    error.saw(25, 16, std::vector{0.01, 0.03});
     EXPECT_DOUBLE_EQ(error.error(), estimate(0.03));
     EXPECT_DOUBLE_EQ(error.share(),
                      std::max(estimate(0.01) / motion_limit(model, 0), estimate(0.03) / motion_limit(model, 1)) / 0.5);
     EXPECT_DOUBLE_EQ(error.allowed(), error.error() / error.share());
     EXPECT_DOUBLE_EQ(error.at_end(), 4 * error.error()) << "2 s, of which half a one has passed";
     const double before = error.error();
-    error.saw(26, 16, std::vector{0.0, 0.0}, further);
+    error.saw(26, 16, std::vector{0.0, 0.0});
     EXPECT_LT(error.error(), before);
     EXPECT_GT(error.error(), 0.9 * before) << "a swing's two runs meet for a moment";
     ByteWriter writer;
@@ -95,10 +86,7 @@ TEST(MotionErrorTest, TheWorstClothCountsAndAnErrorHoldsOn) {
 /// An error that is `share` of what is allowed at that frame.
 MotionError error_of(const SimulationModel& model, std::uint32_t frame, double share) {
     MotionError unit(model);
-    const Companions with = model.companions(16);
-    const auto saw = [&](MotionError& error, double apart) {
-        error.saw(frame, 16, std::vector{apart, 0.0}, std::vector<double>(with.coarser > 0 ? 2 : 0, apart));
-    };
+    const auto saw = [&](MotionError& error, double apart) { error.saw(frame, 16, std::vector{apart, 0.0}); };
     saw(unit, 1);
     MotionError error(model);
     saw(error, share / unit.share());

@@ -62,8 +62,7 @@ TEST(SolverChoiceTest, WindAndContactCostASubstepTheSameByEveryMethod) {
     const auto substep_ms = [](const SceneDescription& scene, SolverMethod method) {
         const SolverChoice choice = choose_solver(scene, DeviceKind::cpu);
         const SolverCandidate& candidate = of(choice, method);
-        const Companions with = companions_of(row_of(method), candidate.substeps);
-        return candidate.predicted_ms / (candidate.substeps + with.companion + with.coarser);
+        return candidate.predicted_ms / (candidate.substeps + companion_substeps(row_of(method), candidate.substeps));
     };
     const SceneDescription calm = automatic(20);
     SceneDescription windy = calm, met = calm, met_by_four = calm;

@@ -193,6 +193,28 @@ TEST(SubstepControl, TurnsBackWhereMoreSubstepsMakeNonsense) {
     EXPECT_EQ(verdict, Verdict::give_up);
 }
 
+TEST(SubstepControl, WhatTheWatchBoundsDoesNotHoldSubstepsUp) {
+    // Cloth in flight comes near to the speed that it can have, whatever its substeps are.
+    const auto comes_to = [](const Judgement& judgement) {
+        SubstepControl loop = control(48);
+        for (int segment = 0; segment < 100; ++segment) {
+            loop.begin(6, false);
+            EXPECT_EQ(loop.judge(judgement), Verdict::keep);
+        }
+        return loop.begin(6, false).substeps;
+    };
+    const Judgement easy{.stretch = 0.01, .motion = 0.02, .coarse_stretch = 0.02};
+    Judgement fast = easy, strained = easy;
+    fast.watch = strained.stretch = strained.coarse_stretch = 0.8;
+    EXPECT_LT(comes_to(fast), 48u);
+    EXPECT_EQ(comes_to(fast), comes_to(easy));
+    EXPECT_EQ(comes_to(strained), 48u);
+    fast.watch = 1.1;
+    SubstepControl loop = control(48);
+    loop.begin(6, false);
+    EXPECT_EQ(loop.judge(fast), Verdict::again);
+}
+
 TEST(SubstepControl, AnErrorFarFromItsLimitMakesProbesFewer) {
     const auto probes = [](double share) {
         SubstepControl loop = control(16);

@@ -44,7 +44,8 @@ TEST(ExplicitTest, AHangingSheetStretchesByItsTension) {
     }
     double worst = 0;
     for (std::uint32_t spring = 0; spring < columns * links; ++spring) {
-        const double dy = model.cloths[0].spacing[1], below = links - spring / columns - 0.5;
+        const std::uint32_t row = spring / columns;
+        const double dy = model.cloths[0].spacing[1], below = links - row - 0.5;
         const double expected = cloth.areal_density * 9.81 * below * dy / cloth.stiffness.stretch;
         worst = std::max(worst, std::abs((lengths[spring] / dy - 1) / expected - 1));
     }

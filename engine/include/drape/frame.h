@@ -28,7 +28,7 @@ struct FrameEffort {
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
-    /// the worst cloth's mass, m, true within a factor of 3 in three of four scenes; NaN where nothing was simulated,
+    /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated,
     /// or is `sensitive`.
     double position_error = std::numeric_limits<double>::quiet_NaN();
     /// The position error of the last frame, if it goes on growing in proportion to time, m.
