@@ -6,9 +6,9 @@
 #include "base/vectors.h"
 #include "cloth/tear.h"
 #include "cloth/texels.h"
-#include "scene/contact_shape.h"
-#include "scene/start.h"
-#include "scene/weather.h"
+#include "world/contact_shape.h"
+#include "world/start.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "scene/contact_shape.h"
-#include "scene/weather.h"
+#include "world/contact_shape.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -4,7 +4,7 @@
 
 #include "cloth/frame_inputs.h"
 #include "cloth/texels.h"
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -1,4 +1,4 @@
-// The device (solver/statistics_pass.h) and the twin (reference/statistics.h) reduce a cloth's state to a record; here
+// The device (solver/statistics_pass.h) and the twin (twin/statistics.h) reduce a cloth's state to a record; here
 // its numbers get their units.
 #pragma once
 

@@ -2,8 +2,8 @@
 
 #include "cloth/cut_topology.h"
 #include "cloth/texels.h"
-#include "scene/collider_pose.h"
-#include "scene/motion.h"
+#include "world/collider_pose.h"
+#include "world/motion.h"
 
 namespace drape {
 

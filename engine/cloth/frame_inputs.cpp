@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/vectors.h"
-#include "scene/collider_pose.h"
-#include "scene/gust.h"
-#include "scene/motion.h"
-#include "scene/weather.h"
+#include "world/collider_pose.h"
+#include "world/gust.h"
+#include "world/motion.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
-#include "scene/motion.h"
 #include "shared/collider_types.h"
+#include "world/motion.h"
 
 namespace drape {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 

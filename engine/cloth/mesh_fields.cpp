@@ -9,9 +9,9 @@
 
 #include "drape/error.h"
 #include "mesh/mesh_sequence.h"
-#include "scene/collider_pose.h"
-#include "scene/field_plan.h"
-#include "scene/overlap.h"
+#include "world/collider_pose.h"
+#include "world/field_plan.h"
+#include "world/overlap.h"
 
 namespace drape {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/contact_shape.h"
+#include "world/contact_shape.h"
 
 namespace drape {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/cloth_model.h"
-#include "scene/start_crossings.h"
 #include "shared/self_contact_types.h"
+#include "world/start_crossings.h"
 
 namespace drape {
 

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 
-#include "cloth/motion_error.h"
-#include "cloth/substep_control.h"
-#include "scene/contact_shape.h"
-#include "scene/weather.h"
+#include "cloth/rungs.h"
 #include "shared/collider_types.h"
+#include "world/contact_shape.h"
+#include "world/weather.h"
 
 namespace drape {
 

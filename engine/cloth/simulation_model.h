@@ -6,7 +6,7 @@
 #include "cloth/companions.h"
 #include "cloth/mesh_fields.h"
 #include "cloth/self_contact.h"
-#include "scene/overlap.h"
+#include "world/overlap.h"
 
 namespace drape {
 
@@ -32,7 +32,7 @@ struct SimulationModel {
     ModelOptions options;
     std::vector<ClothModel> cloths;
     std::optional<SelfContact> self_contact;  ///< nothing: no cloth meets itself or another
-    /// Contact keeps particles from these (scene/contact_shape.h): the scene's colliders, once for all cloths that it
+    /// Contact keeps particles from these (world/contact_shape.h): the scene's colliders, once for all cloths that it
     /// grows them alike for and that leave them alike.
     std::vector<std::vector<KeptCollider>> kept_colliders;
     MeshFields mesh_fields;  ///< distances to the colliders that are meshes
@@ -45,9 +45,10 @@ struct SimulationModel {
 
     /// Returns the method in use, as a scene knows it.
     const SolverMethodName& method() const { return named(scene.solver.method); }
-    /// Returns whether frames are judged and done again with other substeps where they fail (cloth/substep_control.h).
+    /// Returns whether frames are judged and done again with other substeps where they fail
+    /// (control/substep_control.h).
     bool closed_loop() const { return asked_method == SolverMethod::automatic && options.closed_loop; }
-    /// Returns whether the position error is estimated (cloth/motion_error.h).
+    /// Returns whether the position error is estimated (control/motion_error.h).
     bool has_companions() const { return scene.solver.estimate_error.value_or(closed_loop()); }
     /// Returns whether states are held against each other, or change their substeps.
     bool compares_states() const { return closed_loop() || has_companions(); }

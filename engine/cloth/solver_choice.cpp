@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "cloth/method.h"
-#include "cloth/motion_error.h"
-#include "cloth/substep_control.h"
-#include "scene/contact_shape.h"
-#include "scene/weather.h"
+#include "cloth/rungs.h"
+#include "world/contact_shape.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "scene/contact_shape.h"
+#include "world/contact_shape.h"
 
 namespace drape {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/contact_shape.h"
+#include "world/contact_shape.h"
 
 namespace drape {
 

@@ -7,7 +7,7 @@
 
 #include "base/vectors.h"
 #include "mesh/mesh_shape.h"
-#include "scene/collider_pose.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 namespace {

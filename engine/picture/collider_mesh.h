@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "drape/scene.h"
-#include "scene/collider_pose.h"
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 

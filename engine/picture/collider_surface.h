@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drape/scene.h"
-#include "scene/collider_pose.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 

@@ -5,10 +5,10 @@
 
 #include "base/vectors.h"
 #include "picture/picture_places.h"
-#include "scene/collider_pose.h"
-#include "scene/motion.h"
-#include "scene/start.h"
-#include "scene/world.h"
+#include "world/collider_pose.h"
+#include "world/motion.h"
+#include "world/start.h"
+#include "world/up.h"
 
 namespace drape {
 namespace {

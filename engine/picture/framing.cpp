@@ -9,10 +9,10 @@
 
 #include "base/vectors.h"
 #include "picture/picture_places.h"
-#include "scene/collider_pose.h"
-#include "scene/start.h"
-#include "scene/weather.h"
-#include "scene/world.h"
+#include "world/collider_pose.h"
+#include "world/start.h"
+#include "world/up.h"
+#include "world/weather.h"
 
 namespace drape {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "picture/camera.h"
 #include "picture/picture_places.h"
-#include "scene/collider_pose.h"
 #include "shared/collider_types.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 

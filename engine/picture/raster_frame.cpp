@@ -8,8 +8,8 @@
 #include "include/tone.h"
 #include "picture/camera.h"
 #include "picture/picture_places.h"
-#include "scene/collider_pose.h"
-#include "scene/world.h"
+#include "world/collider_pose.h"
+#include "world/up.h"
 
 namespace drape {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 

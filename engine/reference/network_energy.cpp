@@ -5,8 +5,8 @@
 
 #include "base/vectors.h"
 #include "reference/spring_network.h"
-#include "scene/gust.h"
-#include "scene/weather.h"
+#include "world/gust.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -6,9 +6,9 @@
 
 #include "cloth/grid.h"
 #include "reference/stable_hash.h"
-#include "scene/motion.h"
-#include "scene/start.h"
-#include "scene/weather.h"
+#include "world/motion.h"
+#include "world/start.h"
+#include "world/weather.h"
 
 namespace drape {
 

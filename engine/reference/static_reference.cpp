@@ -6,7 +6,7 @@
 
 #include "reference/implicit_reference.h"
 #include "reference/sparse_system.h"
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 

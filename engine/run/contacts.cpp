@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "cloth/frame_inputs.h"
-#include "scene/contact_shape.h"
-#include "scene/surface_distance.h"
+#include "world/contact_shape.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 

@@ -7,8 +7,8 @@
 #include "mesh/mesh_sequence.h"
 #include "output/kept_frames.h"
 #include "run/frame_sink.h"
-#include "scene/contact_shape.h"
 #include "spirv_modules.h"
+#include "world/contact_shape.h"
 
 namespace drape {
 

@@ -10,7 +10,7 @@
 #include "output/json_text.h"
 #include "picture/strain_scale.h"
 #include "run/written_colliders.h"
-#include "scene/start.h"
+#include "world/start.h"
 
 namespace drape {
 

@@ -14,8 +14,8 @@
 #include "run/run.h"
 #include "run/run_description.h"
 #include "run/written_colliders.h"
-#include "scene/start_crossings.h"
 #include "simulation/frame_checks.h"
+#include "world/start_crossings.h"
 
 namespace drape {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cloth/motion_error.h"
+#include "control/motion_error.h"
 
 namespace drape {
 

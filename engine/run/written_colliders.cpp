@@ -6,7 +6,7 @@
 
 #include "mesh/mesh_shape.h"
 #include "picture/collider_surface.h"
-#include "scene/collider_pose.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 

@@ -7,11 +7,11 @@
 
 #include "base/vectors.h"
 #include "drape/scene_reader.h"
-#include "scene/overlap.h"
 #include "scene/scene_rules.h"
-#include "scene/start.h"
-#include "scene/start_crossings.h"
-#include "scene/weather.h"
+#include "world/overlap.h"
+#include "world/start.h"
+#include "world/start_crossings.h"
+#include "world/weather.h"
 
 namespace drape {
 namespace {

@@ -3,9 +3,9 @@
 #include "drape/error.h"
 #include "mesh/distance_field.h"
 #include "mesh/mesh_shape.h"
-#include "scene/field_plan.h"
 #include "scene/scene_rules.h"
-#include "scene/triangle_crossings.h"
+#include "world/field_plan.h"
+#include "world/triangle_crossings.h"
 
 namespace drape {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "base/vectors.h"
-#include "scene/held.h"
 #include "scene/scene_rules.h"
-#include "scene/start.h"
-#include "scene/weather.h"
+#include "world/held.h"
+#include "world/start.h"
+#include "world/weather.h"
 
 namespace drape {
 

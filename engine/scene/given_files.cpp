@@ -10,7 +10,7 @@
 #include "input/map_file.h"
 #include "input/positions_file.h"
 #include "scene/scene_rules.h"
-#include "scene/start.h"
+#include "world/start.h"
 
 namespace drape {
 

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "scene/weather.h"
+#include "world/weather.h"
 
 namespace drape {
 namespace {

@@ -1,5 +1,5 @@
 // A scene may name these checks under `oracles`. The reader, the schema and the document know their names, limits and
-// meaning; verify/scene_oracles.h judges them.
+// meaning; run/scene_oracles.h judges them.
 #pragma once
 
 #include <span>

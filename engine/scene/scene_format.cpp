@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "scene/collider_rows.h"
-#include "scene/frame_limit.h"
 #include "scene/scene_rules.h"
+#include "world/frame_limit.h"
 
 namespace drape {
 namespace {

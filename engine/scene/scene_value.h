@@ -14,7 +14,7 @@
 
 #include "scene/scene_format.h"
 #include "scene/scene_node.h"
-#include "scene/world.h"
+#include "world/up.h"
 
 namespace drape {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "cloth/impossible_scene.h"
-#include "cloth/passage_watch.h"
 #include "cloth/substep_change.h"
+#include "control/impossible_scene.h"
+#include "control/passage_watch.h"
 #include "simulation/frame_loop.h"
 
 namespace drape {

@@ -1,5 +1,5 @@
-// Beside a run others are simulated in images of their own: the companion (cloth/motion_error.h), in a closed loop
-// after each segment that is kept, and there at times the disturbed run (cloth/sensitivity.h). Nothing of them is
+// Beside a run others are simulated in images of their own: the companion (control/motion_error.h), in a closed loop
+// after each segment that is kept, and there at times the disturbed run (control/sensitivity.h). Nothing of them is
 // handed out but how far they are from the run.
 #include <algorithm>
 #include <cstring>

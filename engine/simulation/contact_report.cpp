@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "cloth/frame_judgement.h"
+#include "control/frame_judgement.h"
 
 namespace drape {
 

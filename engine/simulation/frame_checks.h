@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "cloth/cloth_statistics.h"
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "drape/simulation.h"
 
 namespace drape {
 
-/// Returns the first of: a particle that is not finite, something not plausible (cloth/watch.h), a cloth whose RMS
+/// Returns the first of: a particle that is not finite, something not plausible (control/watch.h), a cloth whose RMS
 /// stretch error is above the scene's tolerance. There is none without statistics.
 std::optional<FrameFailure> frame_failure(const SimulationModel& model, Watch& watch, const FinishedFrame& frame);
 

@@ -6,11 +6,11 @@
 #include <cstring>
 
 #include "cloth/tear.h"
-#include "scene/weather.h"
 #include "simulation/contact_report.h"
 #include "solver/cut_pass.h"
 #include "solver/readback_pass.h"
 #include "solver/tear_pass.h"
+#include "world/weather.h"
 
 namespace drape {
 

@@ -12,14 +12,14 @@
 #include <span>
 #include <vector>
 
-#include "cloth/drive.h"
-#include "cloth/frame_judgement.h"
 #include "cloth/frame_steps.h"
-#include "cloth/motion_error.h"
-#include "cloth/sensitivity.h"
-#include "cloth/sleep.h"
-#include "cloth/substep_control.h"
-#include "cloth/watch.h"
+#include "control/drive.h"
+#include "control/frame_judgement.h"
+#include "control/motion_error.h"
+#include "control/sensitivity.h"
+#include "control/sleep.h"
+#include "control/substep_control.h"
+#include "control/watch.h"
 #include "drape/simulation.h"
 #include "graph/executor.h"
 #include "picture/cloth_raster.h"

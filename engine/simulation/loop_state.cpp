@@ -10,9 +10,9 @@
 #include "cloth/directions.h"
 #include "cloth/statistics_transfer.h"
 #include "cloth/texels.h"
-#include "scene/frame_limit.h"
 #include "simulation/contact_report.h"
 #include "simulation/frame_loop.h"
+#include "world/frame_limit.h"
 
 namespace drape {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/motion.h"
 #include "simulation/contact_report.h"
 #include "simulation/frame_checks.h"
 #include "simulation/scene_checks.h"
+#include "world/motion.h"
 
 namespace drape {
 
@@ -48,7 +48,7 @@ std::size_t pin_count(const SimulationModel& model) {
 void go(MotionPath& path, double from, double to, std::span<const double> target) {
     const MotionKey now = key_at(path, from);
     const MotionKey end{to, {target[0], target[1], target[2]}, {target[3], target[4], target[5]}};
-    // Keys beyond both ends make the cubic between them a line (scene/motion.h).
+    // Keys beyond both ends make the cubic between them a line (world/motion.h).
     const auto beyond = [&](double at, double share) {
         MotionKey key{at, {}, {}};
         for (std::size_t k = 0; k < 3; ++k) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "drape/ensemble.h"
 
 namespace drape {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "drape/scene_reader.h"
-#include "scene/overlap.h"
-#include "scene/start.h"
-#include "scene/start_crossings.h"
+#include "world/overlap.h"
+#include "world/start.h"
+#include "world/start_crossings.h"
 
 namespace drape {
 

@@ -8,8 +8,8 @@
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
-#include "cloth/passage_watch.h"
 #include "cloth/together.h"
+#include "control/passage_watch.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"

@@ -1,7 +1,6 @@
 #include "solver/attempt_pass.h"
 
-#include "cloth/frame_judgement.h"
-#include "cloth/sensitivity.h"
+#include "cloth/difference.h"
 #include "solver/cloth_constants.h"
 #include "solver/compute_pass.h"
 #include "vulkan/api.h"

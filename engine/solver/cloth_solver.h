@@ -8,7 +8,7 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/cut_topology.h"
-#include "cloth/frame_judgement.h"
+#include "cloth/difference.h"
 #include "solver/attempt_pass.h"
 #include "solver/kernel_choice.h"
 #include "solver/pass_kit.h"

@@ -92,8 +92,8 @@ struct SceneInputs {
 /// A scene's motion may be simulated more than once on a device, each time in images of its own.
 enum class StateSet : std::uint8_t {
     run,        ///< what is handed out
-    companion,  ///< with other substeps, from the start on: what it is away tells the error (cloth/motion_error.h)
-    disturbed,  ///< the companion but for next to nothing, at times: tells chaos from error (cloth/sensitivity.h)
+    companion,  ///< with other substeps, from the start on: what it is away tells the error (control/motion_error.h)
+    disturbed,  ///< the companion but for next to nothing, at times: tells chaos from error (control/sensitivity.h)
 };
 inline constexpr std::size_t state_set_count = 3;
 

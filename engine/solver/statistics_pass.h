@@ -10,7 +10,7 @@ namespace drape {
 std::string statistics_readback_name(const std::string& state);
 
 /// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". The sums are trees in a
-/// fixed order without atomics, so they repeat bit for bit and equal the twin's (reference/statistics.h).
+/// fixed order without atomics, so they repeat bit for bit and equal the twin's (twin/statistics.h).
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
 

@@ -1,5 +1,5 @@
 // Disturbs a particle by next to nothing: where a run that began so parts from its like, the motion is sensitive
-// (engine/cloth/sensitivity.h).
+// (engine/control/sensitivity.h).
 #ifndef DRAPE_DISTURB_H
 #define DRAPE_DISTURB_H
 

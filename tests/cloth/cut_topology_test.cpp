@@ -10,9 +10,9 @@
 #include <set>
 
 #include "cloth/frame_steps.h"
-#include "reference/cut_twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
+#include "twin/cut_twin.h"
 
 namespace drape {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 
 namespace drape {
 namespace {

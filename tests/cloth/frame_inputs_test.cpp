@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/gust.h"
 #include "support/sheets.h"
+#include "world/gust.h"
 
 namespace drape {
 namespace {

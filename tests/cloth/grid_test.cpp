@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 
 namespace drape {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cloth/frame_steps.h"
-#include "cloth/motion_error.h"
-#include "cloth/substep_control.h"
+#include "control/motion_error.h"
+#include "control/substep_control.h"
 #include "support/sheets.h"
 
 namespace drape {

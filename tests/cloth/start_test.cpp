@@ -1,5 +1,5 @@
 // Cloth starts at its place, stretched, scattered, or gathered on a line or a point and parted.
-#include "scene/start.h"
+#include "world/start.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cloth/cloth_model.h"
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "drape/scene_reader.h"
 #include "support/sheets.h"
 

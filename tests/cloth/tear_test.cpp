@@ -11,9 +11,9 @@
 
 #include "cloth/simulation_model.h"
 #include "reference/spring_network.h"
-#include "reference/tear_twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
+#include "twin/tear_twin.h"
 
 namespace drape {
 namespace {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "cloth/texels.h"
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 
 namespace drape::test {
 

@@ -11,8 +11,8 @@
 
 #include "field_pair.h"
 #include "graph/executor.h"
-#include "reference/twin.h"
 #include "solver/pass_kit.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "contact_mirror.h"
-#include "reference/kernels.h"
 #include "step_bounds.h"
+#include "twin/kernels.h"
 
 namespace drape {
 namespace {

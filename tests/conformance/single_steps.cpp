@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 #include "twin_steps.h"
 
 namespace drape::test {

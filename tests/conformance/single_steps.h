@@ -12,8 +12,8 @@
 #include "contact_mirror.h"
 #include "field_pair.h"
 #include "graph/executor.h"
-#include "reference/twin.h"
 #include "solver/cloth_solver.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

@@ -6,10 +6,10 @@
 
 #include "gpu_test.h"
 #include "reference/symplectic_reference.h"
-#include "reference/twin.h"
+#include "run/scene_run.h"
 #include "solver/kernel_choice.h"
 #include "support/sheets.h"
-#include "verify/scene_run.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "scene/triangle_crossings.h"
+#include "world/triangle_crossings.h"
 
 namespace drape::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_scenes.h"
-#include "scene/random.h"
+#include "world/random.h"
 
 namespace drape::test {
 

@@ -11,8 +11,8 @@
 #include "base/vectors.h"
 #include "mesh/mesh_shape.h"
 #include "run/written_colliders.h"
-#include "scene/surface_distance.h"
 #include "support/meshes.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

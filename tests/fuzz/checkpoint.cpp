@@ -5,7 +5,7 @@
 
 #include "base/byte_stream.h"
 #include "base/output_error.h"
-#include "cloth/substep_control.h"
+#include "control/substep_control.h"
 #include "run/checkpoints.h"
 #include "section_input.h"
 

@@ -11,9 +11,9 @@
 #include "cloth/simulation_model.h"
 #include "cloth/texels.h"
 #include "fuzz.h"
-#include "reference/cut_twin.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
+#include "twin/cut_twin.h"
 
 namespace drape {
 namespace {

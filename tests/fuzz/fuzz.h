@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scene/random.h"
+#include "world/random.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -8,7 +8,7 @@
 
 #include "cloth/cloth_state.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "drape/scene_reader.h"
 #include "fuzz.h"
 

@@ -1,6 +1,6 @@
 // In a small scene of everything on the C++ twin pins hold exactly, and every particle is finite or counted as one that
 // is not.
-#include "reference/twin.h"
+#include "twin/twin.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <cstdlib>
 
 #include "cloth/frame_inputs.h"
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "drape/scene_reader.h"
-#include "reference/statistics.h"
-#include "scene/motion.h"
 #include "small_scene.h"
 #include "support/twin_with_cuts.h"
+#include "twin/statistics.h"
+#include "world/motion.h"
 
 namespace drape {
 namespace {

@@ -9,11 +9,11 @@
 #include "cloth/self_contact.h"
 #include "device_run.h"
 #include "drape/scene_reader.h"
-#include "reference/twin.h"
 #include "simulation/frame_loop.h"
 #include "small_scene.h"
 #include "support/twin_fields.h"
 #include "support/twin_with_cuts.h"
+#include "twin/twin.h"
 #include "vulkan/error.h"
 
 #ifdef __SANITIZE_ADDRESS__

@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "picture/frame_copy.h"
-#include "reference/twin_loop.h"
 #include "simulation/frame_loop.h"
 #include "support/self_contact_scenes.h"
+#include "twin/twin_loop.h"
 #include "twin_comparison.h"
 
 namespace drape {

@@ -8,9 +8,9 @@
 
 #include "base/vectors.h"
 #include "cloth/texels.h"
-#include "reference/twin.h"
 #include "run/run_statistics.h"
-#include "scene/start.h"
+#include "twin/twin.h"
+#include "world/start.h"
 
 namespace drape::test {
 

@@ -8,8 +8,8 @@
 
 #include "picture/camera.h"
 #include "raster_picture.h"
-#include "scene/collider_pose.h"
 #include "support/meshes.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 namespace {

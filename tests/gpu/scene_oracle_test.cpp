@@ -7,10 +7,10 @@
 
 #include "drape/scene_reader.h"
 #include "gpu_test.h"
+#include "run/scene_oracles.h"
 #include "scene/oracle_kinds.h"
 #include "scene_breaks.h"
 #include "scene_files.h"
-#include "verify/scene_oracles.h"
 
 namespace drape {
 namespace {

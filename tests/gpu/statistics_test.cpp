@@ -1,6 +1,6 @@
 // The device's record of a frame's statistics equals the twin's bit for bit, and its numbers are those of a plain
 // evaluation of the downloaded state in double precision.
-#include "reference/statistics.h"
+#include "twin/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "drape/simulation.h"
-#include "scene/surface_distance.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

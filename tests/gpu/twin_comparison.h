@@ -8,9 +8,9 @@
 
 #include "device_run.h"
 #include "gpu_test.h"
-#include "reference/twin.h"
 #include "support/sheets.h"
 #include "support/twin_fields.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

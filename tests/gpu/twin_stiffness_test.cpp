@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cloth/sleep.h"
+#include "control/sleep.h"
 #include "device_run.h"
 #include "gpu_test.h"
 #include "support/sheets.h"

@@ -1,6 +1,4 @@
 // A scene with z up is the scene with y up, turned: in what comes out of it, and in its pictures.
-#include "scene/world.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "picture/fixtures.h"
 #include "picture/framing.h"
 #include "scene_files.h"
+#include "world/up.h"
 
 namespace drape {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "cloth/texels.h"
 #include "native/native_run.h"
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "network_scenes.h"
 #include "reference/symplectic_reference.h"
-#include "reference/twin_loop.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin_loop.h"
 
 namespace drape {
 namespace {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

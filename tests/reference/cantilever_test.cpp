@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "reference/model_scenes.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

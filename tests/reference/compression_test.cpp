@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "network_scenes.h"
-#include "reference/kernels.h"
 #include "reference/symplectic_reference.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "base/vectors.h"
 #include "cloth/simulation_model.h"
-#include "reference/twin.h"
 #include "support/self_contact_scenes.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

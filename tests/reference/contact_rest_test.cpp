@@ -10,8 +10,8 @@
 
 #include "cloth/simulation_model.h"
 #include "drape/scene_reader.h"
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -6,12 +6,12 @@
 #include <random>
 
 #include "cloth/frame_inputs.h"
-#include "reference/kernels.h"
-#include "reference/twin.h"
-#include "scene/surface_distance.h"
 #include "support/meshes.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

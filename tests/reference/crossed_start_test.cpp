@@ -6,9 +6,9 @@
 #include <random>
 
 #include "base/vectors.h"
-#include "reference/kernels.h"
-#include "reference/twin.h"
 #include "support/self_contact_scenes.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

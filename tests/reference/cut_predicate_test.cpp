@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "reference/kernels.h"
-#include "scene/surface_distance.h"
+#include "twin/kernels.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

@@ -6,16 +6,16 @@
 #include <optional>
 
 #include "base/vectors.h"
-#include "cloth/drive.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/sleep.h"
-#include "reference/mesh_twin.h"
-#include "reference/twin.h"
-#include "scene/motion.h"
-#include "scene/surface_distance.h"
+#include "control/drive.h"
+#include "control/sleep.h"
 #include "support/meshes.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/mesh_twin.h"
+#include "twin/twin.h"
+#include "world/motion.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "reference/kernels.h"
-#include "scene/surface_distance.h"
+#include "twin/kernels.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cloth/simulation_model.h"
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

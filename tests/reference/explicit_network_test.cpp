@@ -5,9 +5,9 @@
 #include <random>
 
 #include "reference/spring_network.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

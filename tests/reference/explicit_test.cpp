@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/windy_scenes.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/watch.h"
-#include "reference/statistics.h"
-#include "reference/twin.h"
+#include "control/watch.h"
 #include "support/sheets.h"
+#include "twin/statistics.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

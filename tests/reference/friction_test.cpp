@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "reference/twin.h"
 #include "support/meshes.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -7,9 +7,9 @@
 #include "network_scenes.h"
 #include "reference/closed_forms.h"
 #include "reference/symplectic_reference.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -7,14 +7,14 @@
 
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/passage_watch.h"
-#include "reference/kernels.h"
-#include "reference/statistics.h"
-#include "reference/twin.h"
-#include "scene/surface_distance.h"
+#include "control/passage_watch.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
 #include "support/throws.h"
+#include "twin/kernels.h"
+#include "twin/statistics.h"
+#include "twin/twin.h"
+#include "world/surface_distance.h"
 
 namespace drape {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "reference/twin.h"
-#include "scene/motion.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
+#include "world/motion.h"
 
 namespace drape {
 namespace {

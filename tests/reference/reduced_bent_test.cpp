@@ -7,11 +7,11 @@
 #include <random>
 
 #include "cloth/kernel_steps.h"
-#include "reference/reduced_system.h"
-#include "reference/twin.h"
 #include "shared/cyclic_types.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/reduced_system.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

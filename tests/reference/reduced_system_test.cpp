@@ -1,6 +1,6 @@
 // Cyclic reduction of the lines' two systems (shaders/include/cyclic.h) agrees with elimination in double precision,
 // and with the lines that are walked.
-#include "reference/reduced_system.h"
+#include "twin/reduced_system.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 
 #include "cloth/cyclic_lines.h"
 #include "cloth/kernel_steps.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 
 namespace drape::glsl {
 namespace {

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "base/vectors.h"
-#include "reference/kernels.h"
-#include "reference/statistics.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/kernels.h"
+#include "twin/statistics.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

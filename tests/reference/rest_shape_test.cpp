@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "reference/symplectic_reference.h"
-#include "reference/twin.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

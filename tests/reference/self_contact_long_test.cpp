@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "reference/statistics.h"
 #include "support/self_contact_scenes.h"
+#include "twin/statistics.h"
 
 namespace drape {
 namespace {

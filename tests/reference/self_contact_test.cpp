@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "reference/kernels.h"
-#include "reference/twin.h"
 #include "support/self_contact_scenes.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

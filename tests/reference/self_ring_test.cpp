@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <random>
 
-#include "reference/kernels.h"
+#include "twin/kernels.h"
 
 namespace drape {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "reference/kernels.h"
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

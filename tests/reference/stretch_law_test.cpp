@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "reference/twin.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "reference/twin.h"
 #include "support/windy_scenes.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

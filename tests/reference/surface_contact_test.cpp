@@ -5,12 +5,12 @@
 #include <functional>
 #include <random>
 
-#include "reference/twin.h"
-#include "scene/contact_shape.h"
 #include "support/drawn_depth.h"
 #include "support/meshes.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
+#include "world/contact_shape.h"
 
 namespace drape {
 namespace {

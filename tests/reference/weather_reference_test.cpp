@@ -7,7 +7,7 @@
 #include "network_scenes.h"
 #include "reference/implicit_reference.h"
 #include "reference/symplectic_reference.h"
-#include "reference/twin.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {

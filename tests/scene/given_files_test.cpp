@@ -10,9 +10,9 @@
 
 #include "base/vectors.h"
 #include "drape/scene_reader.h"
-#include "scene/contact_shape.h"
-#include "scene/start.h"
-#include "scene/start_crossings.h"
+#include "world/contact_shape.h"
+#include "world/start.h"
+#include "world/start_crossings.h"
 
 namespace drape::testing {
 namespace {

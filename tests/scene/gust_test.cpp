@@ -1,4 +1,4 @@
-#include "scene/gust.h"
+#include "world/gust.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Pins that are led into a collider or through it, or that jump at the start, are named with frame and depth.
-#include "scene/held.h"
+#include "world/held.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "scene/motion.h"
+#include "world/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Cloth that starts inside a collider, or through another cloth, is noticed (which, how deep, how much of it), and
 // refused where the scene says so.
-#include "scene/overlap.h"
+#include "world/overlap.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

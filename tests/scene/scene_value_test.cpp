@@ -12,7 +12,7 @@
 #include "drape/scene_reader.h"
 #include "full_scene.h"
 #include "mesh/mesh_sequence.h"
-#include "scene/collider_pose.h"
+#include "world/collider_pose.h"
 
 namespace drape {
 namespace {

@@ -1,11 +1,11 @@
 // Gravity and wind that keys change.
-#include "scene/weather.h"
+#include "world/weather.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "scene/gust.h"
+#include "world/gust.h"
 
 namespace drape {
 namespace {

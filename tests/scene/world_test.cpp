@@ -1,9 +1,8 @@
 // In a world with z up, every default that has a direction is turned, and nothing else.
-#include "scene/world.h"
-
 #include <gtest/gtest.h>
 
 #include "drape/scene_reader.h"
+#include "world/up.h"
 
 namespace drape {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth/grid.h"
-#include "scene/surface_distance.h"
+#include "world/surface_distance.h"
 
 namespace drape::test {
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "reference/twin.h"
-#include "scene/triangle_crossings.h"
 #include "support/sheets.h"
+#include "twin/twin.h"
+#include "world/triangle_crossings.h"
 
 namespace drape::test {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "reference/twin.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/vectors.h"
-#include "scene/collider_pose.h"
 #include "shared/collider_types.h"
 #include "support/sheets.h"
+#include "world/collider_pose.h"
 
 namespace drape::test {
 

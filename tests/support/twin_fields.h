@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "cloth/cloth_state.h"
-#include "reference/twin.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

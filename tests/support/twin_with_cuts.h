@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "cloth/tear.h"
-#include "reference/cut_twin.h"
-#include "reference/tear_twin.h"
-#include "reference/twin.h"
+#include "twin/cut_twin.h"
+#include "twin/tear_twin.h"
+#include "twin/twin.h"
 
 namespace drape::test {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "cloth/watch.h"
+#include "control/watch.h"
 #include "support/sheets.h"
 
 namespace drape::test {

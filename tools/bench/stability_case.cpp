@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bench/random_scenes.h"
-#include "scene/random.h"
 #include "solver/kernel_choice.h"
+#include "world/random.h"
 
 namespace drape::bench {
 

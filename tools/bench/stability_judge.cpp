@@ -9,10 +9,10 @@
 #include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
-#include "cloth/impossible_pins.h"
 #include "cloth/solver_choice.h"
-#include "scene/collider_pose.h"
-#include "scene/weather.h"
+#include "control/impossible_pins.h"
+#include "world/collider_pose.h"
+#include "world/weather.h"
 
 namespace drape::bench {
 

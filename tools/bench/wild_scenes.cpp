@@ -6,7 +6,7 @@
 
 #include "base/vectors.h"
 #include "bench/random_scenes.h"
-#include "scene/random.h"
+#include "world/random.h"
 
 namespace drape::bench {
 

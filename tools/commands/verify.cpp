@@ -1,4 +1,4 @@
-#include "verify/verify.h"
+#include "run/verify.h"
 
 #include "base/printable_text.h"
 #include "ending.h"

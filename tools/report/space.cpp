@@ -20,8 +20,8 @@
 #include "picture/collider_mesh.h"
 #include "picture/color_map.h"
 #include "picture/framing.h"
-#include "scene/collider_pose.h"
-#include "scene/motion.h"
+#include "world/collider_pose.h"
+#include "world/motion.h"
 
 namespace drape::report {
 

@@ -37,12 +37,12 @@ constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T val
     return {};
 }
 
-/// The axis that points up in a scene's world. Coordinates are the scene's own everywhere (scene/world.h). The reader
+/// The axis that points up in a scene's world. Coordinates are the scene's own everywhere (world/up.h). The reader
 /// turns defaults that have a direction with it; these structures have those of a world with y up.
 enum class Up { y, z };
 inline constexpr Spelling<Up> up_spellings[] = {{"y", Up::y}, {"z", Up::z}};
 
-/// One key of a vector that changes, of a wind's velocity or of gravity: scene/weather.h gives it between the keys.
+/// One key of a vector that changes, of a wind's velocity or of gravity: world/weather.h gives it between the keys.
 struct VectorKey {
     double time = 0.0;  ///< s
     Vec3 value{0, 0, 0};
@@ -186,7 +186,7 @@ struct Cloth {
     Rest rest = Rest::flat;      ///< `start` needs that
     double areal_density = 0.2;  ///< kg/m^2; where cells differ, of one with the factor 1
     Stiffness stiffness;
-    /// Factors of all of the stiffness, at most 1, strictly increasing in time; empty: it stays (scene/weather.h).
+    /// Factors of all of the stiffness, at most 1, strictly increasing in time; empty: it stays (world/weather.h).
     std::vector<FactorKey> stiffness_keys;
     double damping = 0.0;      ///< 1/s
     double friction = 0.3;     ///< Coulomb coefficient of the cloth's own side

@@ -1,0 +1,16 @@
+// A closed loop chooses the substeps of a frame from a ladder of numbers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "cloth/method.h"
+
+namespace drape {
+
+/// Returns the substeps per frame to choose from, ascending, even, up to the method's most.
+std::span<const std::uint32_t> substep_rungs(const Method& method);
+/// Returns the first of at least so many substeps, or the last.
+std::uint32_t first_rung(const Method& method, double substeps);
+
+}  // namespace drape

@@ -1,0 +1,56 @@
+#include "control/motion_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/frame_judgement.h"
+
+namespace drape {
+
+namespace {
+
+/// s, within which an error that is not seen any more falls to 1/e.
+constexpr double hold = 1.5;
+/// s, the shortest time for which an error is allowed.
+constexpr double least_time = 0.5;
+
+}  // namespace
+
+bool compares_at(const SimulationModel& model, std::uint32_t last, bool probes) {
+    return probes || last % probe_length(model) == 0;
+}
+
+MotionError::MotionError(const SimulationModel& model) : model_(model), held_(model.cloths.size()) {}
+
+double MotionError::order() const { return error_order(row_of(model_.scene.solver.method), model_.closed_loop()); }
+
+/// Few substeps have a companion of another ratio than many. What runs are apart by was made with the one that there
+/// was at the time, the more by the longer substeps.
+void MotionError::weigh(std::uint32_t substeps, double passed, double kept) {
+    const double now = static_cast<double>(substeps) / model_.companion_substeps(substeps);
+    const double made = passed * std::pow(substeps, -order()), before = kept * weight_;
+    weight_ = before + made;
+    ratio_ = weight_ > 0 ? (before * ratio_ + made * now) / weight_ : now;
+}
+
+void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart) {
+    const double passed = (frame - last_frame_) / model_.scene.time.fps, kept = std::exp(-passed / hold);
+    const double time = std::max(frame / model_.scene.time.fps, least_time);
+    weigh(substeps, passed, kept);
+    last_frame_ = frame;
+    error_ = share_ = 0;
+    for (std::size_t cloth = 0; cloth < apart.size(); ++cloth) {
+        const double error = richardson_error(order(), ratio_, apart[cloth]);
+        held_[cloth] = std::max(error, kept * held_[cloth]);
+        error_ = std::max(error_, held_[cloth]);
+        share_ = std::max(share_, held_[cloth] / (motion_limit(model_, cloth) * time));
+    }
+}
+
+double MotionError::at_end() const {
+    const TimeSettings& time = model_.scene.time;
+    const double now = std::max(last_frame_ / time.fps, least_time), end = (time.frame_count - 1) / time.fps;
+    return error_ * std::max(1.0, end / now);
+}
+
+}  // namespace drape

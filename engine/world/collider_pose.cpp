@@ -1,0 +1,112 @@
+#include "world/collider_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/vectors.h"
+#include "mesh/mesh_sequence.h"
+#include "world/motion.h"
+
+namespace drape {
+namespace {
+
+std::array<double, 9> product(const std::array<double, 9>& a, const std::array<double, 9>& b) {
+    std::array<double, 9> result{};
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 3; ++column)
+            for (std::size_t k = 0; k < 3; ++k) result[3 * row + column] += a[3 * row + k] * b[3 * k + column];
+    return result;
+}
+
+ShapeGeometry geometry(const Plane& plane) {
+    const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset, plane.normal[2] * plane.offset};
+    return {foot, plane.normal, std::numeric_limits<double>::infinity()};
+}
+ShapeGeometry geometry(const Sphere& sphere) { return {sphere.center, {sphere.radius, 0, 0}, sphere.radius}; }
+ShapeGeometry geometry(const Box& box) {
+    const Vec3& h = box.half_extents;
+    return {box.center, h, std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2])};
+}
+ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
+    return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
+}
+
+ShapeGeometry geometry(const Mesh& mesh) {
+    return {plus(mesh.position, mesh.shape->middle()), mesh.shape->half_extents(), length(mesh.shape->half_extents())};
+}
+
+/// The capsule's own y axis runs from `from` to `to`.
+ShapeGeometry geometry(const Capsule& capsule) {
+    Vec3 center, y;
+    for (std::size_t k = 0; k < 3; ++k) {
+        center[k] = 0.5 * (capsule.from[k] + capsule.to[k]);
+        y[k] = capsule.to[k] - capsule.from[k];
+    }
+    const double apart = std::hypot(y[0], y[1], y[2]);
+    y = apart > 0 ? Vec3{y[0] / apart, y[1] / apart, y[2] / apart} : Vec3{0, 1, 0};
+    // Any x across y will do: the one of the world's x and z that is farther from y is made perpendicular.
+    Vec3 x = std::abs(y[0]) < std::abs(y[2]) ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+    const double shared = x[0] * y[0] + x[2] * y[2];
+    for (std::size_t k = 0; k < 3; ++k) x[k] -= shared * y[k];
+    const double length = std::hypot(x[0], x[1], x[2]);
+    for (double& entry : x) entry /= length;
+    const Vec3 z{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+    return {center,
+            {0.5 * apart, capsule.radii[0], capsule.radii[1]},
+            0.5 * apart + std::max(capsule.radii[0], capsule.radii[1]),
+            std::array{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}};
+}
+
+}  // namespace
+
+ShapeGeometry shape_geometry(const ColliderShape& shape) {
+    return std::visit([](const auto& known) { return geometry(known); }, shape);
+}
+
+ColliderPose collider_pose(const Collider& collider, double time) {
+    const RigidTransform motion = motion_at(collider.path, time);
+    const ShapeGeometry shape = shape_geometry(collider.shape);
+    ColliderPose pose{product(motion.rotation, rotation_matrix(collider.rotate)), shape.center};
+    if (shape.axes) pose.rotation = product(pose.rotation, *shape.axes);
+    for (std::size_t axis = 0; axis < 3; ++axis) pose.center[axis] += motion.translation[axis];
+    return pose;
+}
+
+double pose_number(const Mesh& mesh, double time) {
+    const auto count = static_cast<double>(mesh.sequence->count());
+    const double number = (time - mesh.frames_start) * mesh.frames_per_second;
+    if (!mesh.loop) return std::clamp(number, 0.0, count - 1);
+    const double within = number - count * std::floor(number / count);
+    return within < count ? within : 0;  // rounding
+}
+
+Collider formed(const Collider& collider, double time) {
+    Collider now = collider;
+    if (Mesh* const mesh = std::get_if<Mesh>(&now.shape); mesh && mesh->sequence)
+        mesh->shape = mesh->sequence->at(pose_number(*mesh, time));
+    return now;
+}
+
+double deformed(const Collider& collider, double from, double to) {
+    if (!collider.deforms()) return 0;
+    const Mesh& mesh = std::get<Mesh>(collider.shape);
+    return mesh.sequence->farthest(pose_number(mesh, from), pose_number(mesh, to));
+}
+
+bool rests(const Collider& collider, double from, double to) {
+    const MotionPath& path = collider.path;
+    if (path.moves() && to > path.keys.front().time && from < path.keys.back().time) return false;
+    if (!collider.deforms()) return true;
+    const Mesh& mesh = std::get<Mesh>(collider.shape);
+    return mesh.sequence->count() == 1 || (!mesh.loop && pose_number(mesh, from) == pose_number(mesh, to));
+}
+
+Vec3 rotate(const std::array<double, 9>& rotation, const Vec3& v) {
+    Vec3 result{0, 0, 0};
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t k = 0; k < 3; ++k) result[row] += rotation[3 * row + k] * v[k];
+    return result;
+}
+
+}  // namespace drape

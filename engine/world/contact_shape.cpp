@@ -1,0 +1,102 @@
+#include "world/contact_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/mesh_shape.h"
+#include "world/start.h"
+
+namespace drape {
+
+namespace {
+
+/// Returns what a ball's radius lacks to keep triangles out.
+double lift(double radius, double covering) { return std::hypot(radius, covering) - radius; }
+
+double most_growth(const std::array<double, 3>& radii, const std::array<double, 3>& lifted) {
+    double most = 0;
+    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, lifted[k] - radii[k]);
+    return most;
+}
+
+/// Returns radii of an ellipsoid that keeps triangles out of one of these. Scaled by sqrt(1 + c^2/e^2), e its smallest
+/// radius, it does. So does one that contains all points within c of it, as a triangle's corner is that near to any
+/// point of the triangle: by its support function h + c, and 2 c h <= c (h^2/t + t), that has the squared radii
+/// r^2 (1 + c/t) + c^2 + c t, whatever the t. The one that grows the least anywhere is taken, as a flat body would
+/// reach metres beside itself when scaled.
+std::array<double, 3> lifted_radii(const std::array<double, 3>& radii, double c) {
+    const double smallest = std::ranges::min(radii), scale = std::hypot(1, c / smallest);
+    std::array<double, 3> best = radii;
+    for (double& radius : best) radius *= scale;
+    constexpr int tries = 60;
+    for (int k = 0; k <= tries && c > 0; ++k) {
+        const double t = c * std::pow(1000, static_cast<double>(k) / tries);
+        std::array<double, 3> around = radii;
+        for (double& radius : around) radius = std::sqrt(radius * radius * (1 + c / t) + c * (c + t));
+        if (most_growth(radii, around) < most_growth(radii, best)) best = around;
+    }
+    return best;
+}
+
+double grown(double radius, double by, double thickness) { return radius + std::max(0.0, by - thickness); }
+
+struct Grow {
+    double covering, thickness;
+
+    void operator()(Plane&) const {}
+    void operator()(Box&) const {}
+    void operator()(Sphere& sphere) const {
+        sphere.radius = grown(sphere.radius, lift(sphere.radius, covering), thickness);
+    }
+    void operator()(Capsule& capsule) const {
+        for (double& radius : capsule.radii) radius = grown(radius, lift(radius, covering), thickness);
+    }
+    void operator()(Mesh& mesh) const { mesh.grown = grown(0, lift(mesh.shape->inner_radius(), covering), thickness); }
+    void operator()(Ellipsoid& ellipsoid) const {
+        const std::array<double, 3> lifted = lifted_radii(ellipsoid.radii, covering);
+        for (std::size_t k = 0; k < 3; ++k)
+            ellipsoid.radii[k] = grown(ellipsoid.radii[k], lifted[k] - ellipsoid.radii[k], thickness);
+    }
+};
+
+}  // namespace
+
+double covering_radius(const Cloth& cloth) {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        // A given shape may be as uneven as cloth is that moves, unless that is at rest and may stretch, too.
+        const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
+        const double scale =
+            cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;
+        const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, scale);
+        squared += spacing * spacing;
+    }
+    return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
+}
+
+double least_thickness(const Cloth& cloth) {
+    const std::vector<float>& factors = cloth.particle_thickness;
+    return factors.empty() ? cloth.thickness : cloth.thickness * static_cast<double>(std::ranges::min(factors));
+}
+
+double edge_reach(const Cloth& cloth) { return 2 * covering_radius(cloth); }
+
+bool meets_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
+    // A shell is made of balls, by which it grows.
+    const auto has_edges = [](const Collider& each) {
+        const Mesh* mesh = std::get_if<Mesh>(&each.shape);
+        return std::holds_alternative<Box>(each.shape) || (mesh && !mesh->shell);
+    };
+    return cloth.contact == ContactOf::surface && least_thickness(cloth) < covering_radius(cloth) &&
+           std::ranges::any_of(colliders, has_edges);
+}
+
+Collider contact_shape(const Cloth& cloth, const Collider& collider) {
+    Collider kept = collider;
+    if (cloth.contact == ContactOf::surface)
+        std::visit(Grow{covering_radius(cloth), least_thickness(cloth)}, kept.shape);
+    return kept;
+}
+
+}  // namespace drape

@@ -1,0 +1,72 @@
+#include "world/weather.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "base/vectors.h"
+
+namespace drape {
+namespace {
+
+Vec3 strongest(const std::vector<VectorKey>& keys, const Vec3& steady) {
+    if (keys.empty()) return steady;
+    return std::ranges::max(keys, {}, [](const VectorKey& key) { return length(key.value); }).value;
+}
+
+/// Keys on both sides of a time, and its share of the way from one to the other; an end's key is on both sides.
+template <class Key>
+struct Around {
+    const Key &from, &to;
+    double share;
+};
+
+template <class Key>
+Around<Key> around(const std::vector<Key>& keys, double time) {
+    const auto later = std::ranges::upper_bound(keys, time, {}, &Key::time);
+    if (later == keys.begin()) return {keys.front(), keys.front(), 0};
+    const Key& from = later[-1];
+    if (later == keys.end()) return {from, from, 0};
+    return {from, *later, (time - from.time) / (later->time - from.time)};
+}
+
+}  // namespace
+
+Vec3 value_at(const std::vector<VectorKey>& keys, const Vec3& steady, double time) {
+    if (keys.empty()) return steady;
+    const auto [from, to, share] = around(keys, time);
+    Vec3 value;
+    for (std::size_t k = 0; k < 3; ++k) value[k] = from.value[k] + share * (to.value[k] - from.value[k]);
+    return value;
+}
+
+double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame) {
+    if (cloth.stiffness_keys.empty()) return 1;
+    const double middle = frame == 0 ? 0 : (frame - 0.5) / scene.time.fps;
+    const auto [from, to, share] = around(cloth.stiffness_keys, middle);
+    return from.factor + share * (to.factor - from.factor);
+}
+
+bool is_steady(const std::vector<VectorKey>& keys, double from, double to) {
+    if (keys.empty()) return true;
+    const Vec3 first = value_at(keys, {}, from);
+    return first == value_at(keys, {}, to) && std::ranges::all_of(keys, [&](const VectorKey& key) {
+               return key.time <= from || key.time >= to || key.value == first;
+           });
+}
+
+Vec3 gravity_at(const SceneDescription& scene, double time) {
+    return value_at(scene.gravity_keys, scene.gravity, time);
+}
+
+bool gravity_changes(const SceneDescription& scene) {
+    return std::ranges::adjacent_find(scene.gravity_keys, std::ranges::not_equal_to(), &VectorKey::value) !=
+           scene.gravity_keys.end();
+}
+
+bool has_weather(const SceneDescription& scene) { return scene.wind.blows() || gravity_changes(scene); }
+
+Vec3 strongest_gravity(const SceneDescription& scene) { return strongest(scene.gravity_keys, scene.gravity); }
+
+Vec3 strongest_wind(const Wind& wind) { return strongest(wind.keys, wind.velocity); }
+
+}  // namespace drape

@@ -1,0 +1,87 @@
+// These passes of the twin are between a cloth's fields and the sheet on which contact sees all cloths.
+#include <algorithm>
+#include <utility>
+
+#include "cloth/texels.h"
+#include "twin/kernels.h"
+#include "twin/twin.h"
+
+namespace drape {
+
+using namespace glsl;
+
+std::size_t place_on_sheet(const SelfClothPush& push, std::size_t particle) {
+    const auto columns = static_cast<std::size_t>(push.grid.x);
+    const std::size_t column = particle % columns, row = particle / columns;
+    return (static_cast<std::size_t>(push.first.y) + row) * static_cast<std::size_t>(push.sheet.x) +
+           static_cast<std::size_t>(push.first.x) + column;
+}
+
+namespace {
+
+/// Begins a substep's contact, when all cloths are on the sheet.
+void begin_contact(TwinContact& contact, const SelfClothPush& push) {
+    SelfRecord& record = contact.record;
+    if (push.begins_frame != 0) record = {};
+    std::vector<vec3> samples;
+    for (const SelfCloth& cloth : contact.model->cloths)
+        for (int k = 0; push.held == 0 && k < self_cloth_samples; ++k) {
+            const ivec2 sample = self_sample(cloth.grid, k);
+            const int place = (cloth.first.y + sample.y) * push.sheet.x + cloth.first.x + sample.x;
+            samples.push_back(xyz(contact.displacements[static_cast<std::size_t>(place)]));
+        }
+    vec3 sum{};
+    for (const vec3& sample : samples) sum = sum + sample;
+    const vec3 mean = self_mean(sum, push.cloth_count);
+    float least = 1;
+    for (const vec3& sample : samples) least = self_least(least, self_part_made(sample, mean));
+    record.carried = texel(self_common_motion(mean, least));
+    record.point_count = record.edge_count = 0;
+    record.touching_point_count = record.touching_edge_count = 0;
+    record.cell_count = 0;
+}
+
+void run_self_gather(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const auto& push = step.push<SelfClothPush>();
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
+        const std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
+        const std::size_t place = place_on_sheet(push, i);
+        meeting->positions[place] = state[Field::position][i];
+        meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
+        if (!state[Field::support].empty())
+            meeting->supports[place] = {std::exchange(state[Field::support][i], vec4{}), state[Field::support_grip][i]};
+    }
+    if (push.cloth_count > 0) begin_contact(*meeting, push);
+}
+
+void run_self_return(const TwinPlace& where) {
+    const auto& [scene, model, state, step, inputs, motions, meeting] = where;
+    const auto& push = step.push<SelfClothPush>();
+    cut_short(*meeting, step.cloth);
+    const bool ends_frame = step.last && !state[Field::end_excess].empty();
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const std::size_t place = place_on_sheet(push, i);
+        if (meeting->before[place].w == 0.0f) continue;
+        const vec3 velocity = xyz(meeting->velocities[place]);
+        vec4& start = state[Field::position][i];
+        start = texel(self_start(xyz(start), xyz(meeting->displacements[place]), velocity), start.w);
+        state.move_to(i, velocity);
+        if (meeting->before[place].w == self_pushed && (model.scheme.second_order || ends_frame)) {
+            vec4& last = where.before()[i];
+            last = texel(self_changed_alike(xyz(last), xyz(meeting->before[place]), velocity));
+        }
+        if (!model.scheme.second_order) continue;
+        uint& hold = state.integers(Field::line_control)[control_hold];
+        hold = std::max(hold, line_hold_contact);
+    }
+}
+
+}  // namespace
+
+std::vector<TwinRow> twin_sheet_rows() {
+    return {{StepKind::self_gather, run_self_gather}, {StepKind::self_return, run_self_return}};
+}
+
+}  // namespace drape
