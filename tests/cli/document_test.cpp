@@ -49,6 +49,12 @@ TEST(FirstScene, EveryDocumentsSceneIsGoodAndRendersToItsEnd) {
     }
 }
 
+TEST(EngineReadme, BeginsWithTheSmallestProgramme) {
+    const std::vector<std::string> programmes = blocks(read_text(repository / "engine/README.md"), "cpp");
+    ASSERT_EQ(programmes.size(), 1u);
+    EXPECT_EQ(programmes[0], read_text(repository / "tests/documents/smallest.cpp"));
+}
+
 /// Collects the names of all members, without the cloth that a statistic belongs to.
 void collect_names(const Json::Value& value, std::set<std::string>& names) {
     if (value.isObject()) {
