@@ -22,7 +22,7 @@ double wanted_compliance(double constant, const ClothGeometry& cloth, const Meth
     return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
 }
 
-/// Returns the compliance of an element that is softened to `share` of its constant, less what the sweep adds.
+/// Returns the compliance of an element that is softened to `share` of its constant, less what an iteration adds.
 float pass_compliance(double wanted, double share, double pass) {
     return static_cast<float>(std::max(wanted / share - pass, 1e-20));
 }

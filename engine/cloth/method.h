@@ -41,11 +41,11 @@ struct MethodScheme {
 
     // The steps need these fields beside position and displacement with their remainders.
     bool spare_state = false;         ///< particles gather what springs do: a step reads one state, writes another
-    bool spare_displacement = false;  ///< sweeps, of springs or of twist, may read one and write the other
-    bool spare_tension = false;       ///< sweeps of springs may read the tension and write the other
+    bool spare_displacement = false;  ///< passes over springs or twist may read one and write the other
+    bool spare_tension = false;       ///< passes over springs may read the tension and write the other
     bool second_order = false;        ///< displacement before, velocity excess, line control
     bool line_scratch = false;        ///< lines are solved
-    /// Blocks give radius in columns, in rows, sweeps; then come pins: column, row, pins of their round.
+    /// Blocks give radius in columns, in rows, iterations; then come pins: column, row, pins of their round.
     std::vector<glsl::ivec4> nested_table{};
     /// A direction carries it from iteration to iteration, from substep to substep, or to the release of a pin.
     PerDirection<bool> carries_tension{};

@@ -16,10 +16,10 @@ namespace {
 
 using glsl::ivec2;
 
-/// The sweeps of a block go over the box of particles within `radius` columns and rows of a pin.
+/// The iterations of a block take the box of particles within `radius` columns and rows of a pin.
 struct NestedBlock {
     ivec2 radius;
-    int sweeps;
+    int iterations;
 };
 
 /// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
@@ -31,9 +31,9 @@ constexpr int longest_strip = 1024;
 /// Returns boxes up to the largest and back, with the smallest again and again, and once the strip around the pin's
 /// column, which carries far more than the columns beside it, all the way down. Boxes around inner particles have one
 /// line less than a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes
-/// along at a time. There are none where more substeps are cheaper. docs/solvers.md tells how the lists were found.
+/// along at a time. There are none where more substeps are cheaper (docs/solvers.md, "Nested boxes at lone pins").
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
-    const auto box = [](int radius, int sweeps) { return NestedBlock{{radius, radius}, sweeps}; };
+    const auto box = [](int radius, int iterations) { return NestedBlock{{radius, radius}, iterations}; };
     const NestedBlock strip{{7, std::min(grid.size().y, longest_strip)}, 1};
     const std::uint32_t links = std::max(grid.columns(), grid.rows()) - 1;
     if (links < 48) return {};
@@ -71,7 +71,7 @@ double visits(const Grid& grid, ivec2 pin, const std::vector<NestedBlock>& block
     double sum = 0;
     for (const NestedBlock& block : blocks) {
         const ivec2 size = glsl::nested_box(pin, block.radius, grid.size()).size;
-        sum += static_cast<double>(block.sweeps) * size.x * size.y;
+        sum += static_cast<double>(block.iterations) * size.x * size.y;
     }
     return sum;
 }
@@ -139,7 +139,7 @@ void add_nested_boxes(const ClothGeometry& cloth, const MethodSettings& settings
     for (const ivec2 pin : pins) sum += visits(cloth.grid, pin, blocks);
     if (sum > most_visits * static_cast<double>(cloth.grid.particle_count()))
         return skip("so many lone pins: more substeps are cheaper");
-    for (const auto& [radius, sweeps] : blocks) scheme.nested_table.push_back({radius.x, radius.y, sweeps, 0});
+    for (const auto& [radius, iterations] : blocks) scheme.nested_table.push_back({radius.x, radius.y, iterations, 0});
     push.block_count = static_cast<int>(blocks.size());
     for (const std::vector<ivec2>& round : rounds_of(pins, blocks)) {
         push.first_pin = static_cast<int>(scheme.nested_table.size());

@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// Adds the sweeps around every held particle without a held neighbour to the steps of an iteration, after the lines of
+/// Adds the boxes around every held particle without a held neighbour to the steps of an iteration, after the lines of
 /// the scheme; or says why not. Sets its `nested_table`.
 void add_nested_boxes(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 

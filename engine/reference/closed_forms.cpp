@@ -128,13 +128,13 @@ double hanging_length(std::uint32_t links, double length, double stiffness, doub
     return total;
 }
 
-double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t sweeps, double length) {
-    return double(links) * links * gravity * substep * substep / (2.0 * sweeps * length);
+double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t iterations, double length) {
+    return double(links) * links * gravity * substep * substep / (2.0 * iterations * length);
 }
 
-std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps, double length,
-                                   double strain, double factor) {
-    const double at_one = factor * stretch_law(links, gravity, 1 / fps, sweeps, length);
+std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t iterations,
+                                   double length, double strain, double factor) {
+    const double at_one = factor * stretch_law(links, gravity, 1 / fps, iterations, length);
     const double substeps = std::ceil(std::sqrt(at_one / strain) * (1 - 1e-12));
     if (!(substeps < 4e9)) throw std::invalid_argument("stretch_law_substeps: more than 4e9 substeps");
     return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(substeps));

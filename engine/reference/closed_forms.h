@@ -55,12 +55,12 @@ double hanging_length(std::uint32_t links, double length, double stiffness, doub
 /// Measured factors on `stretch_law`, which itself is the mean of a sheet with stretch springs only.
 inline constexpr double law_all_passes_mean = 0.65, law_all_passes_rms = 0.83, law_chain_rms = 1.6,
                         law_chain_worst = 3.9;
-/// Mean strain of a hanging sheet of rigid stretch springs that parity-split sweeps leave: N^2 g h^2/(2 K L), with N
-/// links over height L (m), K sweeps per substep of h (s). Measured sheets keep to it within 0.4 % for N = 32..128.
-double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t sweeps, double length);
+/// Mean strain of a hanging sheet of rigid stretch springs that parity-split passes leave: N^2 g h^2/(2 K L), with N
+/// links over height L (m), K iterations per substep of h (s). Measured sheets keep to it within 0.4 % for N = 32..128.
+double stretch_law(std::uint32_t links, double gravity, double substep, std::uint32_t iterations, double length);
 /// Substeps per frame of 1/fps seconds at which `stretch_law` times `factor` is at most `strain`.
-std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t sweeps, double length,
-                                   double strain, double factor = 1.0);
+std::uint32_t stretch_law_substeps(std::uint32_t links, double gravity, double fps, std::uint32_t iterations,
+                                   double length, double strain, double factor = 1.0);
 
 /// n-th positive zero of the Bessel function J0, n from 1.
 double bessel_j0_zero(std::uint32_t n);

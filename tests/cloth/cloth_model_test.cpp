@@ -159,8 +159,9 @@ TEST(FrameStepsTest, MicroStepsBetweenWhichSomethingHappensGoOneByOne) {
     EXPECT_THAT(in_flight(bending), alone);
 }
 
-/// Returns the iteration of each of a scene's sweeps, and for each of its predictions whether it turns.
-std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDescription& scene) {
+/// Returns the iteration of each of a scene's passes over all springs, and for each of its predictions whether it
+/// turns.
+std::pair<std::vector<std::uint32_t>, std::vector<bool>> spring_passes_of(const SceneDescription& scene) {
     std::pair<std::vector<std::uint32_t>, std::vector<bool>> found;
     for (const Step& step :
          springs_together(SimulationModel(scene), Kernel::spring_stream, frame_steps(SimulationModel(scene)))) {
@@ -173,17 +174,19 @@ std::pair<std::vector<std::uint32_t>, std::vector<bool>> sweeps_of(const SceneDe
 TEST(FrameStepsTest, SpringsOfAnIterationAreSweptAndTheDisplacementComesHome) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 2, 1);
     scene.cloths[0].stiffness = {false, 50, 5, 0};
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)));
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)));
     scene.solver.iterations = 2;
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 1, 0, 1), ElementsAre(false, false)));
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(0, 1, 0, 1), ElementsAre(false, false)));
     scene.cloths[0].stiffness.shear = 0;
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(), ElementsAre(false, false))) << "tension of stretch springs alone";
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(), ElementsAre(false, false)))
+        << "tension of stretch springs alone";
     scene.cloths[0].stiffness.rigid = true;
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 1, 0, 1), ElementsAre(false, false)));
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(0, 1, 0, 1), ElementsAre(false, false)));
     scene.solver.iterations = 3;
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 1, 2, 0, 1, 2), ElementsAre(true, true)));
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(0, 1, 2, 0, 1, 2), ElementsAre(true, true)));
     scene.solver.tolerance = 0.1;
-    EXPECT_THAT(sweeps_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true))) << "the device decides on others";
+    EXPECT_THAT(spring_passes_of(scene), Pair(ElementsAre(0, 0), ElementsAre(true, true)))
+        << "the device decides on others";
 }
 
 TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
@@ -199,7 +202,7 @@ TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
         const auto plain = test::pushes<glsl::TwistPush>(model.cloths[0].scheme)[0];
         for (const Step& step : steps) {
             const bool predicts = step.kind == StepKind::force || step.kind == StepKind::predict;
-            EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second sweep";
+            EXPECT_EQ(step.turns, predicts && turns) << "relaxation's springs are a second pass";
             if (step.kind != StepKind::all_twist) continue;
             EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance, plain.compliance);
             EXPECT_EQ(step.push<glsl::AllTwistPush>().compliance_bdf2, plain.compliance_bdf2);
@@ -207,14 +210,14 @@ TEST(FrameStepsTest, TheTwistOfAllColoursIsSweptAndTheDisplacementComesHome) {
     }
 }
 
-TEST(FrameStepsTest, ASweepKnowsTheDirectionsThatThereAre) {
+TEST(FrameStepsTest, APassOverAllSpringsKnowsTheDirectionsThatThereAre) {
     SceneDescription scene = test::sheet(5, 5, 1, 1, 1, 1);
     scene.cloths[0].stiffness = {false, 50, 0, 0};
     const std::vector<Step> steps = kernel_steps(SimulationModel(scene), stream_kernels);
     ASSERT_EQ(count(steps, StepKind::all_springs), 1);
     EXPECT_EQ(count(steps, StepKind::spring), 0);
-    const auto sweep = std::ranges::find(steps, StepKind::all_springs, &Step::kind);
-    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(sweep->push<glsl::AllSpringsPush>(), d), d < 2) << d;
+    const auto pass = std::ranges::find(steps, StepKind::all_springs, &Step::kind);
+    for (int d = 0; d < 4; ++d) EXPECT_EQ(has_direction(pass->push<glsl::AllSpringsPush>(), d), d < 2) << d;
 }
 
 TEST(FrameStepsTest, LineFramesPredictInSecondOrderWithCollidersToo) {

@@ -90,8 +90,8 @@ TEST(SolverChoiceTest, TheLawsScaleAsTheyAreStated) {
     }
     for (const SolverMethod method : {SolverMethod::relax, SolverMethod::explicit_steps})
         EXPECT_NEAR(substeps(128, 1e-5, method) / substeps(128, 1e-3, method), 10, 0.3);
-    // Measured on the hanging and swinging sheet (docs/accuracy.md), 1 % takes about 20 relaxed substeps at 64 links;
-    // lines from a held edge need as many as the swing.
+    // Measured on the hanging and swinging sheet (`drape bench accuracy`), 1 % takes about 20 relaxed substeps at 64
+    // links; lines from a held edge need as many as the swing.
     EXPECT_NEAR(substeps(64, 0.01, SolverMethod::relax), 25, 6);
     for (const std::uint32_t links : {64u, 256u, 512u})
         EXPECT_EQ(substeps(links, 0.01, SolverMethod::line), links == 512 ? 9 : 6);

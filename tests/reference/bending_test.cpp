@@ -1,5 +1,5 @@
-// The solvers' bending is as stiff in every direction, takes off again what a sweep adds, and leaves no net force or
-// torque.
+// The solvers' bending is as stiff in every direction, takes off again what an iteration adds, and leaves no net force
+// or torque.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ std::vector<Vec3> flat() {
 struct Solver {
     SolverMethod method;
     double compliance;  ///< m/(b h^2)
-    double limit;       ///< largest relative error; a sweep's own falls as 1/compliance^2, at borders as 1/compliance
+    double limit;  ///< largest relative error; an iteration's own falls as 1/compliance^2, at borders as 1/compliance
     const char* name() const { return method == SolverMethod::relax ? "relax" : "explicit"; }
 };
 

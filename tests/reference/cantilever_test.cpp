@@ -37,7 +37,7 @@ TEST_P(Cantilever, HangsAsTheElastica) {
     }
     EXPECT_NEAR(ratio[2] / expected.second, 1, 0.02);
     // The order is found by differences, since the strip also stretches (by 0.04 %). At Gamma 10 they are too small to
-    // tell; a single sweep of relaxation has its own error, of order 1/(segments m/(b h^2)).
+    // tell; a single iteration of relaxation has its own error, of order 1/(segments m/(b h^2)).
     if (method == SolverMethod::relax || gamma == 10) return;
     const double order = std::log2((ratio[0] - ratio[1]) / (ratio[1] - ratio[2]));
     std::printf("[ measured ] order %.2f\n", order);
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Gamma, Cantilever,
 class LineCantilever : public testing::TestWithParam<std::pair<double, double>> {};
 
 TEST_P(LineCantilever, HangsAsTheElasticaOnAFewSubsteps) {
-    // m/(b h^2) is 2e-3 at Gamma 1 and 4 substeps, while a sweep over coloured elements can follow 3.
+    // m/(b h^2) is 2e-3 at Gamma 1 and 4 substeps, while an iteration over coloured elements can follow 3.
     const auto [gamma, expected] = GetParam();
     for (const std::uint32_t substeps : {4u, 8u, 20u}) {
         SceneDescription scene = model_scenes::hanging_cantilever(32, gamma, SolverMethod::line);

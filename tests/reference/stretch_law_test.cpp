@@ -1,4 +1,4 @@
-// The hanging sheet stretches under K sweeps per substep by eps = N^2 g dt^2 / (2 K L) (docs/physics.md 2).
+// The hanging sheet stretches under K iterations per substep by eps = N^2 g dt^2 / (2 K L) (docs/physics.md 2).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -105,7 +105,7 @@ void run_nested(const TwinPlace& where) {
         const ivec2 pin{table[k].x, table[k].y};
         if (state[Field::position][at(model.grid, pin)].w != 0.0f) continue;
         for (std::size_t block = 0; block < static_cast<std::size_t>(push.block_count); ++block)
-            for (int sweep = 0; sweep < table[block].z; ++sweep)
+            for (int iteration = 0; iteration < table[block].z; ++iteration)
                 for (int order = 0; order < 4; ++order)
                     solve_direction(model, state, push, nested_box(pin, {table[block].x, table[block].y}, push.grid),
                                     nested_direction(order), is_bdf2);
