@@ -59,7 +59,7 @@ Sections decode_sections(const SectionFormat& format, std::span<const std::byte>
             const auto part = reader.get_bytes(size);
             sections[name].assign(part.begin(), part.end());
         }
-        if (reader.left() > 0) throw Error("something follows its parts");
+        if (reader.left() > 0) throw Error("something follows its sections");
     } catch (const Error& error) {
         throw damaged(error.what());
     }

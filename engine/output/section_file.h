@@ -11,7 +11,7 @@
 
 namespace drape {
 
-// A file of named parts ends with a checksum (engine/docs/checkpoint.md).
+// A file of named sections ends with a checksum (engine/docs/checkpoint.md).
 using Sections = std::map<std::string, std::vector<std::byte>>;
 
 struct SectionFormat {
