@@ -28,8 +28,7 @@ struct AccuracyRequest : SelectedCases {
 /// throws SceneFailure, and Diverged where no refined run of a scene stays finite.
 BenchSummary run_accuracy(const AccuracyRequest& request);
 
-/// Drape's times beside those of the same arithmetic in native C++, on one core and all, and beside what the device's
-/// memory moves; what skips save; what a start takes.
+/// Drape's times beside the device's own and what its memory moves; what skips save; what a start takes.
 struct SpeedRequest : SelectedCases {
     bool tune = false;              ///< measures sets of kernels instead of all else
     std::string scenes = "scenes";  ///< folder of the shipped scenes; cases whose scene is not there are left out
