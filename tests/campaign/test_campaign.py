@@ -132,9 +132,10 @@ class Verdicts(unittest.TestCase):
             self.assertEqual(judge.verdict(warnings, numbers, broken)[0], expected)
 
     def test_exit_codes_say_why_a_run_ended(self):
+        tried, kept = "drape: the most that method auto tries", "what was written before it is kept (1 of 61 frames)"
         for code, said, expected in ((3, "x.json:1:1: wrong", "refused"), (5, "drape: not finite", "refused"),
-                                     (8, "warning: w\ndrape: the most that method auto tries", "refused"),
-                                     (8, "drape: the most that method auto tries; pins hold it", "impossible"),
+                                     (8, f"warning: w\n{tried}", "refused"), (8, f"{tried}; {kept}", "refused"),
+                                     (8, f"{tried}; pins hold it; {kept}", "impossible"),
                                      (-11, "", "failed"), (70, "a defect", "failed"), (None, "", "failed")):
             self.assertEqual(judge.refusal(code, said)[0], expected, code)
         self.assertEqual(judge.refusal(8, "warning: w\ndrape: reason")[1], "drape: reason")
@@ -234,6 +235,10 @@ class Campaigns(unittest.TestCase):
     def test_kernels_leave_the_same_bytes(self):
         done = self.campaign("stability", "--filter", "^single/base/line/")
         self.assertIn("6 runs: 6 holds", done.stdout)
+
+    def test_what_no_method_can_follow_is_told_from_what_auto_could(self):
+        done = self.campaign("stability", "--short", "--mixes", "32", "--filter", "^mix/31/.*wind 300/auto")
+        self.assertIn("1 impossible", done.stdout)  # by the program's own words of exit code 8
 
     def test_auto_is_judged_by_what_it_keeps(self):
         done = self.campaign("auto", "--first", "8", "--count", "1", "--validate")

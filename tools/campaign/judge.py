@@ -130,7 +130,8 @@ def refusal(code, said):
     reason = next((line for line in errors if line), "no word") if code is not None else "still running"
     if code not in (SCENE, DIVERGED, TOLERANCE):
         return "failed", f"exit code {code}: {reason}"
-    return "impossible" if re.search("the most that method auto tries; ", reason) else "refused", reason
+    why = re.search("the most that method auto tries; (?!what was written before)", reason)
+    return "impossible" if why else "refused", reason
 
 
 def missed(report):

@@ -1,5 +1,6 @@
 """Runs cases by the program, several at once, and keeps their results."""
 import concurrent.futures
+import contextlib
 import hashlib
 import json
 import os
@@ -97,7 +98,7 @@ class Runner:
         """The results in the order of the cases; those that were left out for want of time or kernels are missing."""
         keys, known, path = [self.key(case) for case in every], {}, self.folder / "results.jsonl"
         for line in path.read_text().splitlines() if path.exists() else ():
-            if line.endswith("}"):  # the last one of a run that was killed may not
+            with contextlib.suppress(ValueError):  # the last one of a run that was killed may be cut short
                 known[json.loads(line)["key"]] = json.loads(line)
         todo = [(key, case) for key, case in zip(keys, every) if key not in known]
         end = time.monotonic() + 60 * (self.options.budget or 1e9)
