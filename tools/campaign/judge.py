@@ -29,7 +29,7 @@ SHORT = {
 # Bounds of an accurate run's last frames.
 BOUNDS = (
     ("stretch_end", 0.06, "the watch's bound of cloth that its substeps resolve: 3 x 0.02 (engine/control/watch.h)"),
-    ("penetration_end", 1e-3, "of an edge: contact leaves no particle deeper than rounding, an edge is some pixels"),
+    ("penetration_end", 1e-3, "of an edge: contact leads every particle out, to rounding and what one substep moves"),
 )
 LAST_FRAMES = 6  # as many as the watch takes for more than a snap
 WORST_SPRING = 0.1  # what method auto keeps where a scene asks for nothing (tolerance_worst)
@@ -92,7 +92,8 @@ def numbers_of(manifest, scene):
     edge = min(side / (count - 1) for cloth in scene["cloths"] for side, count in zip(cloth["size"], cloth["grid"]))
 
     def worst(rows, key):
-        return max((row.get(f"{name}/{key}") or 0 for row in rows for name in names), default=0)
+        values = [row.get(f"{name}/{key}", 0) for row in rows for name in names]
+        return max((math.inf if value is None else value for value in values), default=0)  # JSON has no other word
 
     def mean(key, otherwise):
         return sum(row.get(key, otherwise) for row in frames) / max(len(frames), 1)
