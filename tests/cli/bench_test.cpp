@@ -121,39 +121,6 @@ TEST(BenchAccuracy, FewestSubstepsAreLookedForAndNoneTwice) {
     EXPECT_FALSE(drape(arguments).code);
 }
 
-TEST(BenchAuto, JudgesScenesAndGoesOnWhereItEnded) {
-    const TemporaryFolder folder;
-    std::vector<std::string> arguments = {"bench",      "auto", "--first",        "8", "--count", "1",
-                                          "--validate", "-o",   folder / "scenes"};
-    const Outcome first = drape(arguments);
-    EXPECT_THAT(first.err, AllOf(HasSubstr("1/1 b/1/8: "), HasSubstr("1 cases run, 0 kept"), Not(HasSubstr("VUID"))));
-    EXPECT_THAT(first.out, AllOf(HasSubstr("1 scenes: "), HasSubstr("substeps per frame, most")));
-    EXPECT_THAT(first.code, testing::AnyOf(0, 7)) << first.err;
-    EXPECT_THAT(read_text(folder / "scenes/scenes.jsonl"), HasSubstr("\"name\": \"b/1/8\""));
-    const Outcome second = drape(arguments);
-    EXPECT_THAT(second.err, HasSubstr("0 cases run, 1 kept"));
-    EXPECT_EQ(second.out, first.out);
-    EXPECT_EQ(second.code, first.code);
-    arguments.insert(arguments.end(), {"--tolerance", "0.5"});
-    EXPECT_THAT(drape(arguments).err, HasSubstr("1 cases run, 0 kept")) << "other scenes";
-}
-
-TEST(BenchAuto, RefusesWhatItCannotDo) {
-    const TemporaryFolder folder;
-    const auto refused = [&](std::vector<std::string> options, int code, const char* message) {
-        options.insert(options.begin(), {"bench", "auto", "-o", folder / "b"});
-        const Outcome outcome = drape(options);
-        EXPECT_EQ(outcome.code, code) << message;
-        EXPECT_THAT(outcome.err, HasSubstr(message));
-        EXPECT_THAT(outcome.out, IsEmpty()) << message;
-        EXPECT_FALSE(std::filesystem::exists(folder / "b")) << message;
-    };
-    refused({"--generator", "c"}, 2, "--generator: expected a or b, got 'c'");
-    refused({"--count", "0"}, 2, "--count: expected a whole number from 1");
-    refused({"--tolerance", "0"}, 2, "--tolerance: expected an RMS stretch error between 0 and 1, got '0'");
-    refused({"--device", "no such device"}, 4, "no such device");
-}
-
 TEST(BenchAccuracy, RefusesAUsersSceneThatCannotBeMeasured) {
     const SceneFolder folder(small_scene(7)), still(small_scene(1)), wrong("{\"cloths\": 3}");
     const auto refused = [&](std::vector<std::string> options, int code, const char* message) {
@@ -210,7 +177,7 @@ TEST(BenchSpeed, MeasuresAndWritesEverything) {
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("5/5 "), HasSubstr("5 cases run, 0 kept from before, 0 left out"),
                                    Not(HasSubstr("VUID"))));
     EXPECT_THAT(read_text(folder.out("s.json")), HasSubstr("\"format\": \"drape bench speed 1\""));
-    EXPECT_THAT(read_text(folder.out("s.csv")), HasSubstr("\nexplicit/64,solve,4096,66,1,0,\"native, scalar\","));
+    EXPECT_THAT(read_text(folder.out("s.csv")), HasSubstr("\nexplicit/64,solve,4096,66,1,0,device,"));
     EXPECT_EQ(names_in(folder.out("plots")), std::set<std::string>{"speed_explicit.svg"});
 }
 

@@ -1,4 +1,4 @@
-// The benchmarks: `drape bench accuracy`, `auto`, `speed` and `stability`. Each runs its cases, the important ones
+// The benchmarks: `drape bench accuracy` and `drape bench speed`. Each runs its cases, the important ones
 // first, and writes what was asked for at the end, each file whole. All throw UsageError, OutputError, DeviceError and
 // Stopped.
 #pragma once
@@ -28,33 +28,12 @@ struct AccuracyRequest : SelectedCases {
 /// throws SceneFailure, and Diverged where no refined run of a scene stays finite.
 BenchSummary run_accuracy(const AccuracyRequest& request);
 
-/// Drape's times beside those of the same arithmetic in native C++, on one core and all, and beside what the device's
-/// memory moves; what skips save; what a start takes.
+/// Drape's times beside the device's own and what its memory moves; what skips save; what a start takes.
 struct SpeedRequest : SelectedCases {
     bool tune = false;              ///< measures sets of kernels instead of all else
     std::string scenes = "scenes";  ///< folder of the shipped scenes; cases whose scene is not there are left out
 };
 
 BenchSummary run_speed(const SpeedRequest& request);
-
-/// Extremes alone, in pairs and in drawn mixes by every method, random scenes and a soak, judged from outside.
-struct StabilityRequest : SelectedCases {
-    std::uint32_t seed = 1;
-    std::optional<std::uint32_t> mixes, randoms;  ///< how many; default: by `is_short`
-    std::string folder = "bench_stability";       ///< finished cases, a line each, kept for the next run
-};
-
-BenchSummary run_stability(const StabilityRequest& request);
-
-/// Method `auto` with scenes drawn from a seed, `first` to first + count - 1, judged from outside, by the library.
-struct TrialRequest : BenchRequest {
-    std::string generator = "b";  ///< wild_scene; "a": full_random_scene
-    std::uint32_t seed = 1, first = 0, count = 100;
-    double tolerance = 0;  ///< of every scene; 0: none is asked for
-    bool reference = false;
-    std::string folder = "bench_auto";  ///< finished scenes, a line each, kept for the next run
-};
-
-BenchSummary run_trial(const TrialRequest& request);
 
 }  // namespace drape::bench

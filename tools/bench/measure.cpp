@@ -177,8 +177,7 @@ SimulationModel model_of(const DeviceInfo& device, const Problem& problem, std::
     return SimulationModel(scene_of(problem, size, setting), {.device = device_kind(device)});
 }
 
-}  // namespace
-
+/// A hash of the program itself, which changes without a new version where what `auto` decides does.
 const std::string& program_hash() {
     static const std::string hash = [] {
         std::ifstream file("/proc/self/exe", std::ios::binary);
@@ -186,6 +185,8 @@ const std::string& program_hash() {
     }();
     return hash;
 }
+
+}  // namespace
 
 std::string shaders_hash() {
     std::vector<std::string> parts;

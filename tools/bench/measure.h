@@ -9,8 +9,6 @@
 
 namespace drape::bench {
 
-/// A hash of the program itself, which changes without a new version where what `auto` decides does.
-const std::string& program_hash();
 /// A hash of all shader modules.
 std::string shaders_hash();
 

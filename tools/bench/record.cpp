@@ -33,10 +33,6 @@ void read_member(const Json::Value& value, SolverMethod& member) {
     member = found->method;
 }
 
-void read_member(const Json::Value& value, std::vector<std::string>& member) {
-    for (const Json::Value& text : value) member.push_back(text.asString());
-}
-
 Json::Value points_json(const std::vector<std::array<double, 2>>& points) {
     const auto number = [](double value) { return value; };
     return json_array(points, [&](const auto& point) { return json_array(point, number); });

@@ -2,7 +2,7 @@
 //
 // A type of results says its members once, as
 //   template <class Self> static void members(Self& self, const auto& see) { see("name", self.name); ... }
-// with members of text, numbers, truth values, enumerations with spellings_of(value), Metrics and lists of text.
+// with members of text, numbers, truth values, methods and Metrics.
 #pragma once
 
 #include <json/json.h>
@@ -29,32 +29,18 @@ using Metrics = std::map<std::string, double>;
 /// A number that is not finite, which JSON does not have, is written as "infinite".
 Json::Value member_json(const Metrics& numbers);
 Json::Value member_json(SolverMethod method);
-inline Json::Value member_json(const std::vector<std::string>& list) {
-    return json_array(list, [](const std::string& text) { return text; });
-}
 template <class T>
 Json::Value member_json(const T& member) {
-    if constexpr (std::is_enum_v<T>)
-        return std::string(spelling(spellings_of(member), member));
-    else
-        return member;
+    return member;
 }
 
 /// These throw Json::Exception for a value of another type.
 void read_member(const Json::Value& value, std::string& member);
 void read_member(const Json::Value& value, Metrics& member);
 void read_member(const Json::Value& value, SolverMethod& member);
-void read_member(const Json::Value& value, std::vector<std::string>& member);
 template <class T>
 void read_member(const Json::Value& value, T& member) {
-    if constexpr (std::is_enum_v<T>) {
-        const auto& spellings = spellings_of(member);
-        const auto found = std::ranges::find(spellings, value.asString(), &Spelling<T>::name);
-        if (found == std::end(spellings)) Json::throwLogicError("no such name");
-        member = found->value;
-    } else {
-        member = value.as<T>();
-    }
+    member = value.as<T>();
 }
 
 template <class Result>

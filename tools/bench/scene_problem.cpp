@@ -18,6 +18,20 @@ namespace drape::bench {
 
 namespace {
 
+/// The longest side of any cloth, m.
+double largest_side(const SceneDescription& scene) {
+    double side = 0;
+    for (const Cloth& cloth : scene.cloths) side = std::max({side, cloth.size[0], cloth.size[1]});
+    return side;
+}
+
+/// The most links along a side.
+std::uint32_t largest_links(const SceneDescription& scene) {
+    std::uint32_t links = 1;
+    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
+    return links;
+}
+
 /// The networks of all cloths, for their masses and stretch springs: colliders, bending and stiffness do not matter.
 std::vector<SpringNetwork> networks_of(SceneDescription scene) {
     std::vector<SpringNetwork> networks;
@@ -66,6 +80,8 @@ Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
             const double rms = position_rms(sample.position, exact);
             m["position_rms"] += rms / static_cast<double>(agreeing);
             m["worst_position"] = std::max(m["worst_position"], rms);
+            m["position_at_end"] = rms;
+            m["stated_at_end"] = sample.effort.position_error;
         }
         const Vec3 apart = minus(center(networks, sample.position), center(networks, exact));
         m["center_error"] += dot(apart, apart) / frames;
@@ -82,6 +98,7 @@ Metrics scene_errors(const Recording& run, const ReferenceRun& reference) {
     put_substeps(run.samples, m);
     m["tolerance"] = run.scene.solver.tolerance > 0 ? run.scene.solver.tolerance : default_tolerance;
     if (agreeing == 0) m.erase("position_rms"), m.erase("worst_position"), m.erase("reference_error");
+    if (agreeing == 0 || !std::isfinite(m["stated_at_end"])) m.erase("stated_at_end");
     return m;
 }
 
@@ -124,18 +141,6 @@ std::string row_name(const std::string& path) {
 }
 
 }  // namespace
-
-double largest_side(const SceneDescription& scene) {
-    double side = 0;
-    for (const Cloth& cloth : scene.cloths) side = std::max({side, cloth.size[0], cloth.size[1]});
-    return side;
-}
-
-std::uint32_t largest_links(const SceneDescription& scene) {
-    std::uint32_t links = 1;
-    for (const Cloth& cloth : scene.cloths) links = std::max({links, cloth.grid[0] - 1, cloth.grid[1] - 1});
-    return links;
-}
 
 UserScene read_user_scene(const std::string& path, const std::vector<std::string>& overrides, std::uint32_t frames) {
     SceneResult result = read_scene(path, overrides);

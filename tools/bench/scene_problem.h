@@ -15,13 +15,6 @@ namespace drape::bench {
 
 // --- The reference: refined runs on the device
 
-/// x y z of every particle of a frame, and the RMS distance of two frames' particles, m.
-std::vector<float> positions_of(const FinishedFrame& frame);
-double rms_between(const std::vector<float>& a, const std::vector<float>& b);
-
-/// The scene by a method with so many substeps of one iteration, without a tolerance.
-SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps);
-
 struct RefinementOptions {
     double wanted_error = 1e-5;          ///< m: refine until the estimate is below
     std::uint32_t most_substeps = 1280;  ///< per frame, of the finest run
@@ -55,15 +48,12 @@ struct UserScene {
 /// there is no frame after the first.
 UserScene read_user_scene(const std::string& path, const std::vector<std::string>& overrides, std::uint32_t frames);
 
-/// The longest side of any cloth, m, and the most links along one.
-double largest_side(const SceneDescription& scene);
-std::uint32_t largest_links(const SceneDescription& scene);
-
 /// Positions count until the two finest references are this share of the largest cloth's side apart.
 inline constexpr double agreement_share = 0.01;
 
 /// A sweep per method and `auto`. Its metrics, per setting:
 ///   position_rms, worst_position   m, RMS over all particles: mean over the frames until `agreement_s`, and the worst
+///   position_at_end, stated_at_end m, the RMS at `agreement_s`, and what the run itself states there, if it does
 ///   reference_error                m, what the reference itself may be off, mean over the same frames
 ///   agreement_s                    s, until when the two finest references agree
 ///   center_error                   m, distance of the centres of mass, RMS over all frames

@@ -11,6 +11,31 @@ namespace drape::bench {
 
 namespace {
 
+/// x y z of every particle of a frame.
+std::vector<float> positions_of(const FinishedFrame& frame) {
+    std::vector<float> all;
+    for (const std::span<const float> cloth : frame.positions)
+        for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
+            all.insert(all.end(), {cloth[i], cloth[i + 1], cloth[i + 2]});
+    return all;
+}
+
+/// The RMS distance of two frames' particles, m.
+double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
+    return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.size()), 1));
+}
+
+/// The scene by a method with so many substeps of one iteration, without a tolerance.
+SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
+    scene.solver.method = method;
+    scene.solver.substeps = substeps;
+    scene.solver.iterations = 1;
+    scene.solver.tolerance = 0;
+    return scene;
+}
+
 using Frames = std::vector<std::vector<float>>;  ///< per frame after the first: x y z of every particle
 
 /// Nothing when it is no longer finite.
@@ -146,28 +171,6 @@ NetworkState state_of(const std::vector<float>& frame) {
 }
 
 }  // namespace
-
-std::vector<float> positions_of(const FinishedFrame& frame) {
-    std::vector<float> all;
-    for (const std::span<const float> cloth : frame.positions)
-        for (std::size_t i = 0; i + 3 < cloth.size(); i += 4)
-            all.insert(all.end(), {cloth[i], cloth[i + 1], cloth[i + 2]});
-    return all;
-}
-
-double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
-    return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.size()), 1));
-}
-
-SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
-    scene.solver.method = method;
-    scene.solver.substeps = substeps;
-    scene.solver.iterations = 1;
-    scene.solver.tolerance = 0;
-    return scene;
-}
 
 ReferenceRun refined_scene(const Device& device, const SceneDescription& scene, const RefinementOptions& options) {
     std::vector<Refinement> all = candidates(device, scene, options);

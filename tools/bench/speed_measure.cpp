@@ -2,13 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <numeric>
-#include <stdexcept>
-#include <thread>
 
 #include "bench/measure.h"
-#include "native/native_run.h"
 #include "solver/cloth_solver.h"
 #include "solver/kernel_choice.h"
 
@@ -18,14 +13,8 @@ namespace {
 
 using Times = std::vector<double>;
 
-int core_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
-
 int frames_of(double milliseconds, const SpeedEffort& effort) {
     return static_cast<int>(std::clamp(1e3 * effort.seconds / std::max(milliseconds, 1e-3), 2.0, 200.0));
-}
-
-double mean_of(const Times& milliseconds) {
-    return std::accumulate(milliseconds.begin(), milliseconds.end(), 0.0) / static_cast<double>(milliseconds.size());
 }
 
 /// Means of the rounds of what a side takes, ms per frame. Single frames would tell less: a host may hear of several at
@@ -90,31 +79,6 @@ class DeviceSide {
     double estimate_ = 0;
 };
 
-/// The native kernels' side, in one way.
-struct NativeSide {
-    NativeSide(std::string side_name, const SimulationModel& model, native::NativeWay way)
-        : means{std::move(side_name)}, run(model, way), estimate(mean_of(run.run(2))) {}
-
-    void round(const SpeedEffort& effort) {
-        means.milliseconds.push_back(mean_of(run.run(frames_of(estimate, effort))));
-    }
-
-    RoundMeans means;
-    native::NativeRun run;
-    double estimate;
-};
-
-std::vector<std::unique_ptr<NativeSide>> native_sides(const SimulationModel& model) {
-    std::vector<std::unique_ptr<NativeSide>> sides;
-    const std::pair<const char*, native::NativeWay> ways[] = {
-        {"native", {core_count(), true}}, {"native, one core", {1, true}}, {"native, scalar", {1, false}}};
-    try {
-        for (const auto& [name, way] : ways) sides.push_back(std::make_unique<NativeSide>(name, model, way));
-    } catch (const std::invalid_argument&) {  // no kernels for this scene
-    }
-    return sides;
-}
-
 SimulationOptions plain_options(bool draw) {
     SimulationOptions options;
     options.draw = draw;
@@ -151,21 +115,11 @@ std::uint64_t SpeedDevices::validation_count() const {
 SpeedResult measure_solver(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
                            const BenchRequest& request) {
     const SceneDescription scene = scene_of(speed_case);
-    const Device& device = devices.of(scene, false);
-    const SimulationModel model(scene, {.device = device_kind(device.info())});
-    DeviceSide side(device, scene, plain_options(false), request);
-    std::vector<std::unique_ptr<NativeSide>> natives = native_sides(model);
-    for (int round = 0; round < effort.rounds; ++round) {
-        side.round(effort);
-        for (const std::unique_ptr<NativeSide>& native : natives) {
-            if (request.stopped()) throw Stopped{};
-            native->round(effort);
-        }
-    }
+    DeviceSide side(devices.of(scene, false), scene, plain_options(false), request);
+    for (int round = 0; round < effort.rounds; ++round) side.round(effort);
     SpeedResult result{speed_case};
     for (const RoundMeans& means : side.means())
         if (means.name == "frame" || means.name == "device") put(result, means);
-    for (const std::unique_ptr<NativeSide>& native : natives) put(result, native->means);
     put_work(side.simulation(), result);
     return result;
 }
@@ -230,7 +184,7 @@ SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, con
 
 double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort) {
     constexpr double particle_step = 5e-7;  // s
-    const double sides = speed_case.kind == SpeedKind::solve || speed_case.kind == SpeedKind::kernels ? 4 : 2;
+    const double sides = speed_case.kind == SpeedKind::solve ? 1 : speed_case.kind == SpeedKind::kernels ? 4 : 2;
     const double least = 3 * speed_case.particles() * speed_case.substeps() * particle_step;
     return 1 + effort.rounds * std::max(sides * effort.seconds, least);
 }

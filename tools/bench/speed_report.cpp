@@ -69,12 +69,6 @@ std::vector<MeasuredCost> fit_costs(const std::vector<SpeedResult>& results) {
 
 namespace {
 
-/// A side that Drape is compared with: its name among the times, the head of its column.
-struct Side {
-    const char *time, *head;
-};
-constexpr Side sides[] = {{"native", "/ native"}, {"native, one core", "/ one core"}, {"native, scalar", "/ scalar"}};
-
 double per_substep(const SpeedResult& result, const char* name) {
     const SpeedTime* time = result.find(name);
     return time ? time->statistics.median / result.about.substeps() : 0;
@@ -94,25 +88,27 @@ double rate(const SpeedResult& result, double amount) {
     return time && time->statistics.median > 0 ? amount / (1e-3 * time->statistics.median) : 0;
 }
 
+/// The milliseconds in which a copy between buffers moves as many bytes as a frame of a solver case declares; 0: not
+/// known.
+double copy_time(const SpeedReport& report, const SpeedResult& result) {
+    return report.copy_bandwidth > 0 ? 1e3 * result.bytes / report.copy_bandwidth : 0;
+}
+
 std::string solver_table(const SpeedReport& report) {
-    std::string text = "\nSolvers, ms per substep (medians), and Drape's time over that of native code\n";
-    text += fmt::format("{:<24}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>12}{:>10}{:>9}{:>8}{:>9}{:>9}{:>7}\n", "case",
-                        "Drape", "device", "native", "1 core", "scalar", sides[0].head, sides[1].head, sides[2].head,
-                        "ns/part.", "GB/s", "of copy", "GFLOP/s", "IQR");
+    std::string text =
+        "\nSolvers, ms per substep (medians), beside the device's own and those of a copy of as many bytes\n";
+    text += fmt::format("{:<24}{:>11}{:>11}{:>11}{:>10}{:>9}{:>8}{:>9}{:>9}{:>7}\n", "case", "Drape", "device", "copy",
+                        "/ device", "ns/part.", "GB/s", "of copy", "GFLOP/s", "IQR");
     bool any = false;
     for (const SpeedResult& r : report.results) {
         if (r.about.kind != SpeedKind::solve) continue;
         any = true;
+        const double copy = copy_time(report, r), bytes = rate(r, r.bytes);
         text += fmt::format("{:<24}", r.about.name);
-        for (const char* name : {"frame", "device", sides[0].time, sides[1].time, sides[2].time})
-            text += number(per_substep(r, name), 11, 4);
-        text += number(r.ratio("frame", sides[0].time), 11, 2) + number(r.ratio("frame", sides[1].time), 12, 2) +
-                number(r.ratio("frame", sides[2].time), 10, 2);
-        text += number(1e6 * per_substep(r, "frame") / r.about.particles(), 9, 1);
-        const double bytes = rate(r, r.bytes);
-        text += number(1e-9 * bytes, 8, 1);
-        text += report.copy_bandwidth > 0 ? number(100 * bytes / report.copy_bandwidth, 7, 0) + " %"
-                                          : fmt::format("{:>9}", "-");
+        text += number(per_substep(r, "frame"), 11, 4) + number(per_substep(r, "device"), 11, 4);
+        text += number(copy / r.about.substeps(), 11, 4) + number(r.ratio("frame", "device"), 10, 2);
+        text += number(1e6 * per_substep(r, "frame") / r.about.particles(), 9, 1) + number(1e-9 * bytes, 8, 1);
+        text += copy > 0 ? number(100 * bytes / report.copy_bandwidth, 7, 0) + " %" : fmt::format("{:>9}", "-");
         text += number(1e-9 * rate(r, r.flops), 9, 1);
         const SpeedTime* frame = r.find("frame");
         text += fmt::format("{:>5.0f} %{}\n", frame ? 100 * frame->statistics.spread : 0, mark(r));
@@ -346,7 +342,7 @@ plot::Plots speed_plots(const SpeedReport& report) {
                                     : "colliders",
                         of_sheets ? "ns per particle and substep" : "ms per substep"};
         plot.curves.push_back(curve_of(group, "frame", "Drape", of_sheets));
-        for (const Side& side : sides) plot.curves.push_back(curve_of(group, side.time, side.time, of_sheets));
+        plot.curves.push_back(curve_of(group, "device", "device", of_sheets));
         std::erase_if(plot.curves, [](const plot::Curve& curve) { return curve.points.empty(); });
         plots.emplace_back(file_name(name), plot);
     }

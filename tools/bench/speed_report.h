@@ -13,11 +13,10 @@
 namespace drape::bench {
 
 /// Times of a case by name, ms per frame but for starts, statistics of the means of rounds. Cases of a solver: "frame"
-/// (from one frame's end to the next), "device" (of those, the device's own time, where it has timestamps), "native"
-/// (the same arithmetic in C++ on all cores), "native, one core", "native, scalar" (on one core, compiled without
-/// vectors). Pictures: "frame" and the device's stages. Skips: "frame", "without". Kernels: "frame", as `auto` runs
-/// it, and each by its name. Ensembles: "frame", a step of all members, "device", and "alone", a frame of one by itself
-/// on one thread. Starts, cold and warm: their parts.
+/// (from one frame's end to the next), "device" (of those, the device's own time, where it has timestamps). Pictures:
+/// "frame" and the device's stages. Skips: "frame", "without". Kernels: "frame", as `auto` runs it, and each by its
+/// name. Ensembles: "frame", a step of all members, "device", and "alone", a frame of one by itself on one thread.
+/// Starts, cold and warm: their parts.
 struct SpeedTime {
     std::string name;
     profile::Statistics statistics;

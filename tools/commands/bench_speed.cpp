@@ -6,18 +6,17 @@ namespace drape::cli {
 void add_bench_speed(Program& program) {
     const auto request = std::make_shared<bench::SpeedRequest>();
     CLI::App& command = program.add(
-        "bench speed", "Drape's times over those of native C++ and of a memory copy",
+        "bench speed", "Drape's times beside the device's own and a memory copy",
         R"text(
-Per substep of every solver: Drape's time, the device's share of it, and that of
-the same arithmetic, to the same bits, in C++ built for this processor: on all
-cores, on one, and on one without vectors. GB/s and GFLOP/s follow from what the
-passes declare; `of copy` is the share of what a copy between buffers moves (64
-MiB on a CPU, 1 GiB by a pass on a GPU). Sheets of 32x32 to 2048x2048 particles, up to 64 cloths and 64 colliders;
-pictures; ensembles of 1 to 4096 members of 32x32, beside processes; what skips
-save on the shipped scenes; starts of a program, with an empty shader cache
-(cold) and a full one (warm). The sides of a comparison take
-turns. Medians over rounds; times whose interquartile range is above 30 % are
-marked doubtful.
+Per substep of every solver: Drape's time, the device's own, and that of a copy
+between buffers (64 MiB on a CPU, 1 GiB by a pass on a GPU) of as many bytes as
+the passes declare. GB/s and GFLOP/s follow from what they declare, too; `of
+copy` is the share of what the copy moves. Sheets of 32x32 to 2048x2048
+particles, up to 64 cloths and 64 colliders; pictures; ensembles of 1 to 4096
+members of 32x32, beside processes; what skips save on the shipped scenes;
+starts of a program, with an empty shader cache (cold) and a full one (warm).
+The sides of a comparison take turns. Medians over rounds; times whose
+interquartile range is above 30 % are marked doubtful.
 
 Examples:
   drape bench speed --short

@@ -20,7 +20,7 @@ enum class Kernel : std::uint8_t {
     spring_tile,      ///< all springs of a relaxation iteration, in tiles of shared memory
     twist_stream,     ///< the twist of all cells, down the rows
     twist_tile,       ///< the twist of all cells, in tiles of shared memory
-    line_parts,       ///< long lines in parts, some particles per invocation: other rounding
+    line_parts,       ///< long lines in parts, some particles per invocation: other rounding; no GPU has run it yet
     line_cyclic,      ///< lines by cyclic reduction, an invocation per particle: other rounding
 };
 
