@@ -57,17 +57,16 @@ Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::S
 /// Returns the largest strain of springs along rows and columns that are held at both ends where the cloth starts.
 double strain_between_pins(const ClothModel& cloth) {
     double largest = 0;
-    const auto compare_ends = [&](std::uint32_t a, std::uint32_t b, double rest) {
-        const glsl::vec4 &p = cloth.position[a], &q = cloth.position[b];
-        if (p.w == 0 && q.w == 0)
-            largest = std::max(largest, std::abs(distance({p.x, p.y, p.z}, {q.x, q.y, q.z}) / rest - 1));
-    };
     for (std::uint32_t row = 0; row < cloth.grid.rows(); ++row)
-        for (std::uint32_t column = 0; column < cloth.grid.columns(); ++column) {
-            const std::uint32_t here = cloth.grid.particle(column, row);
-            if (column > 0) compare_ends(here, cloth.grid.particle(column - 1, row), cloth.spacing[0]);
-            if (row > 0) compare_ends(here, cloth.grid.particle(column, row - 1), cloth.spacing[1]);
-        }
+        for (std::uint32_t column = 0; column < cloth.grid.columns(); ++column)
+            for (const std::uint32_t axis : {0u, 1u}) {
+                if ((axis == 0 ? column : row) == 0) continue;
+                const glsl::vec4& p = cloth.position[cloth.grid.particle(column, row)];
+                const glsl::vec4& q = cloth.position[cloth.grid.particle(column - (1 - axis), row - axis)];
+                if (p.w != 0 || q.w != 0) continue;
+                const double now = distance({p.x, p.y, p.z}, {q.x, q.y, q.z});
+                largest = std::max(largest, std::abs(now / cloth.spacing[axis] - 1));
+            }
     return largest;
 }
 

@@ -43,30 +43,6 @@ std::vector<Held> held_particles(const ClothModel& cloth, double time) {
     return held;
 }
 
-/// Returns how deep (m) a point is below the collider's surface; 0: it is outside.
-double depth_in(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
-    if (distance(point, pose.center) > shape_geometry(collider.shape).reach) return 0;  // spares the costly distance
-    return std::max(0.0, -exact::surface_distance(collider, pose, point));
-}
-
-std::optional<HeldInside> deepest(const SimulationModel& model, const std::vector<Held>& held, double time) {
-    std::optional<HeldInside> found;
-    for (std::size_t index = 0; index < model.scene.colliders.size(); ++index) {
-        if (held.empty()) break;
-        const Collider collider = formed(model.scene.colliders[index], time);
-        const ColliderPose pose = collider_pose(collider, time);
-        HeldInside one{index, 0, 0};
-        for (const Held& particle : held) {
-            const double depth = depth_in(collider, pose, particle.now);
-            if (!(depth > 0)) continue;
-            ++one.particles;
-            one.depth = std::max(one.depth, depth);
-        }
-        if (one.particles > 0 && (!found || one.depth > found->depth)) found = one;
-    }
-    return found;
-}
-
 /// Returns the nearest point of the collider; a point inside is its own.
 Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
     const double distance = exact::surface_distance(collider, pose, point);
@@ -80,9 +56,7 @@ Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& p
         normal[axis] = exact::surface_distance(collider, pose, after) - exact::surface_distance(collider, pose, before);
     }
     const double size = length(normal);
-    Vec3 foot = point;
-    for (std::size_t axis = 0; size > 0 && axis < 3; ++axis) foot[axis] -= distance * normal[axis] / size;
-    return foot;
+    return size > 0 ? minus(point, times(distance / size, normal)) : point;
 }
 
 /// Contact keeps a cloth's particles out of larger shapes, so that its triangles are outside the colliders.
@@ -105,8 +79,24 @@ std::optional<Finding> pinched_between(const SimulationModel& model, const Cloth
 }  // namespace
 
 std::optional<HeldInside> held_inside(const SimulationModel& model, std::size_t cloth, double time) {
-    if (model.scene.colliders.empty()) return std::nullopt;
-    return deepest(model, held_particles(model.cloths[cloth], time), time);
+    std::optional<HeldInside> found;
+    if (model.scene.colliders.empty()) return found;
+    const std::vector<Held> held = held_particles(model.cloths[cloth], time);
+    for (std::size_t index = 0; index < model.scene.colliders.size() && !held.empty(); ++index) {
+        const Collider collider = formed(model.scene.colliders[index], time);
+        const ColliderPose pose = collider_pose(collider, time);
+        const double reach = shape_geometry(collider.shape).reach;
+        HeldInside one{index, 0, 0};
+        for (const Held& particle : held) {
+            if (distance(particle.now, pose.center) > reach) continue;  // spares the costly distance
+            const double depth = -exact::surface_distance(collider, pose, particle.now);
+            if (!(depth > 0)) continue;
+            ++one.particles;
+            one.depth = std::max(one.depth, depth);
+        }
+        if (one.depth > (found ? found->depth : 0)) found = one;
+    }
+    return found;
 }
 
 double room_between(const Collider& one, const Collider& other, double time) {

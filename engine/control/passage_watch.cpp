@@ -106,9 +106,9 @@ Passing passing_by(const Cloth& cloth, const Collider& collider, const Solid& so
     return passing;
 }
 
-/// Calls `see(passage)` for every row of the table and every collider that comes near the cloth in the frame.
-template <class See>
-void for_those_near(const SimulationModel& model, std::size_t index, const Frame& frame, const See& see) {
+/// Returns what every row of the table finds of every collider that comes near the cloth in the frame.
+std::vector<Passage> passages(const SimulationModel& model, std::size_t index, const Frame& frame) {
+    std::vector<Passage> all;
     const Cloth& cloth = model.scene.cloths[index];
     const std::vector<KeptCollider>& kept = model.kept_colliders[model.cloths[index].collider_list];
     const std::array<double, 2> strains = largest_strains(frame.before, frame.now);
@@ -126,9 +126,10 @@ void for_those_near(const SimulationModel& model, std::size_t index, const Frame
         if (!(apart < shape_geometry(collider.shape).reach + radius + 2 * own)) continue;
         const Passing passing = passing_by(cloth, collider, *body, frame, own);
         for (std::uint8_t row = 0; row < passage_bounds().size(); ++row)
-            see(Passage{row, frame.number, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(k),
-                        passage_bounds()[row].value(passing), passage_bounds()[row].bound(passing)});
+            all.push_back({row, frame.number, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(k),
+                           passage_bounds()[row].value(passing), passage_bounds()[row].bound(passing)});
     }
+    return all;
 }
 
 }  // namespace
@@ -140,24 +141,24 @@ double passage_judgement(const SimulationModel& model, std::uint32_t frame, std:
     for (std::size_t cloth = 0; cloth < now.size(); ++cloth) {
         // Only particles are kept out then, with any substeps.
         if (model.scene.cloths[cloth].contact == ContactOf::particles) continue;
-        for_those_near(model, cloth, {frame, substeps, (frame - 1) / fps, frame / fps, before[cloth], now[cloth]},
-                       [&](const Passage& passage) {
-                           if (passage_bounds()[passage.row].substeps_help)
-                               worst = std::max(worst, passage.found / passage.kept);
-                       });
+        const Frame seen{frame, substeps, (frame - 1) / fps, frame / fps, before[cloth], now[cloth]};
+        for (const Passage& passage : passages(model, cloth, seen))
+            if (passage_bounds()[passage.row].substeps_help) worst = std::max(worst, passage.found / passage.kept);
     }
     return worst;
 }
 
 void PassageWatch::look(std::uint32_t frame, std::uint32_t substeps, std::span<const ClothStatistics> cloths) {
     const double fps = model_.scene.time.fps;
-    std::optional<Passage> found;
-    for (std::size_t cloth = 0; cloth < cloths.size() && !last_.empty() && frame > last_frame_ && !found; ++cloth)
-        for_those_near(model_, cloth, {frame, substeps, last_frame_ / fps, frame / fps, last_[cloth], cloths[cloth]},
-                       [&](const Passage& passage) {
-                           if (!found && passage.found > passage.kept) found = passage;
-                       });
-    if (found && frames_++ == 0) first_ = *found;
+    bool found = false;
+    for (std::size_t cloth = 0; cloth < last_.size() && frame > last_frame_; ++cloth) {
+        const Frame seen{frame, substeps, last_frame_ / fps, frame / fps, last_[cloth], cloths[cloth]};
+        for (const Passage& passage : passages(model_, cloth, seen)) {
+            if (found || !(passage.found > passage.kept)) continue;
+            found = true;
+            if (frames_++ == 0) first_ = passage;
+        }
+    }
     last_.assign(cloths.begin(), cloths.end());
     last_frame_ = frame;
 }
