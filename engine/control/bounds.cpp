@@ -269,7 +269,7 @@ constexpr ClothBound cloth_rows[] = {
                "from frame {first} on cloth '{cloth}' is deeper than {bound:.3g} m in what colliders and its thickness "
                "keep free, up to {value:.3g} m in frame {frame}{place}",
                "more room between colliders, slower ones or more substeps may help",
-               "a tenth of a cell or of the thickness, besides how deep the cloth starts and pins hold it"},
+               "a tenth of a cell or of the thickness, besides how deep the cloth starts and pins hold it", ": "},
      .beyond = Beyond::warning,
      .place = &Statistics::deepest,
      .value = [](const Seen& s) { return s.frame > 0 ? depth(s) : 0; },
@@ -367,7 +367,7 @@ std::string sentence(const Words& words, const Finding& found) {
 }
 
 std::string told(const Words& words, const Finding& found) {
-    return fmt::format("{}; {}", sentence(words, found), words.remedy);
+    return sentence(words, found) + words.joint + words.remedy;
 }
 
 }  // namespace drape

@@ -19,10 +19,11 @@ inline constexpr double springs_mean = 0.5;
 
 /// The words of a row. `sentence` has names in braces, which stand for the members of a Finding.
 struct Words {
-    const char* name;      ///< what is bounded, with its unit
-    const char* sentence;  ///< how a finding beyond the bound is told
-    const char* remedy;    ///< what a user can do
-    const char* why;       ///< what the bound is made of, for docs/bounds.md
+    const char* name;          ///< what is bounded, with its unit
+    const char* sentence;      ///< how a finding beyond the bound is told
+    const char* remedy;        ///< what a user can do
+    const char* why;           ///< what the bound is made of, for docs/bounds.md
+    const char* joint = "; ";  ///< between sentence and remedy
 };
 
 /// A finding is what a row measured, and what its sentence names.
