@@ -9,7 +9,7 @@
 
 namespace drape {
 
-/// Returns of the statistics of frame 0, known without a device: mass shares, centres of mass, strains and speeds.
+/// Returns what is known of the statistics of frame 0 without a device: mass shares, centres of mass, strains, speeds.
 std::vector<ClothStatistics> starting_statistics(const SimulationModel& model);
 
 class Causes {

@@ -40,7 +40,8 @@ std::string place_text(const Grid& grid, std::optional<std::uint32_t> particle) 
 
 }  // namespace
 
-Watch::Watch(const SimulationModel& model) : causes_(model) {}
+Watch::Watch(const SimulationModel& model)
+    : causes_(model), notes_(std::ranges::count(cloth_bounds(), Beyond::warning, &ClothBound::beyond)) {}
 
 Seen Watch::seen(std::uint32_t frame, std::size_t cloth, std::span<const ClothStatistics> all) const {
     Seen seen{.causes = causes_, .frame = frame, .cloth = cloth, .all = all};

@@ -2,7 +2,6 @@
 // far above what it ever does.
 #pragma once
 
-#include <array>
 #include <deque>
 #include <optional>
 #include <string>
@@ -73,7 +72,7 @@ class Watch {
 
     Causes causes_;
     std::optional<double> worst_rms_, worst_max_;
-    std::array<Note, 2> notes_;                      ///< of the rows that warn, in their order
+    std::vector<Note> notes_;                        ///< of the rows that warn, in their order
     std::deque<double> starts_depth_;                ///< m, each cloth's penetration in frame 0
     std::deque<double> recent_;                      ///< largest stretch error of a spring, by frame
     std::uint32_t last_frame_ = 0, last_cloth_ = 0;  ///< the last of these, and its cloth with the worst spring
