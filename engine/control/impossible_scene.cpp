@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "base/vectors.h"
-#include "control/impossible_pins.h"
+#include "cloth/frame_inputs.h"
 #include "world/collider_pose.h"
 #include "world/contact_shape.h"
+#include "world/overlap.h"
 #include "world/surface_distance.h"
 #include "world/weather.h"
 
@@ -16,8 +17,31 @@ namespace drape {
 
 namespace {
 
-/// Wind that takes a cloth to its own speed within this share of a frame moves it in jerks that no loop of frames sees.
-constexpr double least_wind_share = 0.05;
+struct Held {
+    Vec3 rest, now;  ///< m
+};
+
+/// Returns the particles that pins hold at a time.
+std::vector<Held> held_particles(const ClothModel& cloth, double time) {
+    std::vector<bool> is_dynamic(cloth.position.size());
+    std::vector<Held> held;
+    for (const glsl::PinnedParticle& particle : cloth.pinned) {
+        is_dynamic[cloth.grid.particle(static_cast<std::uint32_t>(particle.index.x),
+                                       static_cast<std::uint32_t>(particle.index.y))] = true;
+        const DynamicPin& pin = cloth.dynamic_pins[static_cast<std::size_t>(particle.index.z)];
+        if (pin.release && *pin.release <= time) continue;
+        const RigidTransform motion = pin_transform(pin, time);
+        const Vec3 rest{particle.rest.x, particle.rest.y, particle.rest.z};
+        held.push_back({rest, plus(rotate(motion.rotation, rest), motion.translation)});
+    }
+    for (std::size_t particle = 0; particle < cloth.position.size(); ++particle) {
+        const glsl::vec4& at = cloth.position[particle];
+        if (at.w != 0 || is_dynamic[particle]) continue;
+        const Vec3 place{at.x, at.y, at.z};
+        held.push_back({place, place});
+    }
+    return held;
+}
 
 /// Returns the nearest point of the collider; a point inside is its own.
 Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
@@ -32,58 +56,48 @@ Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& p
         normal[axis] = exact::surface_distance(collider, pose, after) - exact::surface_distance(collider, pose, before);
     }
     const double size = length(normal);
-    Vec3 foot = point;
-    for (std::size_t axis = 0; size > 0 && axis < 3; ++axis) foot[axis] -= distance * normal[axis] / size;
-    return foot;
+    return size > 0 ? minus(point, times(distance / size, normal)) : point;
 }
 
-std::string name_of(const SimulationModel& model, std::size_t collider) {
-    return fmt::format("collider {} (of {})", collider, collider_lists[model.scene.colliders[collider].shape.index()]);
-}
-
-/// Returns a sentence where two colliders leave the cloth less room than at the start, and less than it takes.
-std::string pinched_between(const SimulationModel& model, const Cloth& cloth, std::size_t a, std::size_t b,
-                            std::uint32_t frame) {
-    const std::vector<Collider>& all = model.scene.colliders;
+/// Contact keeps a cloth's particles out of larger shapes, so that its triangles are outside the colliders.
+std::optional<Finding> pinched_between(const SimulationModel& model, const Cloth& cloth, std::size_t a, std::size_t b,
+                                       double time) {
+    const Collider &one = model.scene.colliders[a], &other = model.scene.colliders[b];
     const auto stays = [](const Collider& each) { return each.path.keys.empty() && !each.deforms(); };
-    if (stays(all[a]) && stays(all[b])) return {};  // they are where they were at the start
-    const double time = frame / model.scene.time.fps;
-    const double room = room_between(all[a], all[b], time), at_start = room_between(all[a], all[b], 0);
+    if (stays(one) && stays(other)) return {};  // they are where they were at the start
+    const double room = room_between(one, other, time), at_start = room_between(one, other, 0);
     if (!(room < at_start)) return {};
-    // Contact keeps a cloth's particles out of larger shapes, so that its triangles are outside the colliders.
-    const double kept_out = room_between(contact_shape(cloth, all[a]), contact_shape(cloth, all[b]), 0);
+    const double kept_out = room_between(contact_shape(cloth, one), contact_shape(cloth, other), 0);
     const double thickness = least_thickness(cloth), taken = at_start - kept_out + 2 * thickness;
     if (!(room < taken) || kept_out < 2 * thickness) return {};
-    return fmt::format("{} and {} leave {:.3g} m between them, where cloth '{}' takes {:.3g}", name_of(model, a),
-                       name_of(model, b), room, cloth.name, taken);
-}
-
-std::string pinched(const SimulationModel& model, std::uint32_t frame) {
-    const std::size_t count = model.scene.colliders.size();
-    for (const Cloth& cloth : model.scene.cloths)
-        for (std::size_t a = 0; a < count; ++a)
-            for (std::size_t b = 0; b < a; ++b)
-                if (std::string text = pinched_between(model, cloth, b, a, frame); !text.empty()) return text;
-    return {};
-}
-
-std::string blown_away(const SimulationModel& model) {
-    const Wind& wind = model.scene.wind;
-    const double speed = length(strongest_wind(wind)) + wind.gust.amplitude;
-    if (!wind.blows() || !(wind.drag > 0)) return {};
-    for (const Cloth& cloth : model.scene.cloths) {
-        // Drag 1/2 rho Cd v^2 accelerates an areal density s to v within 2 s / (rho Cd v).
-        const double seconds = 2 * cloth.areal_density / (wind.air_density * wind.drag * speed);
-        if (!(seconds < least_wind_share / model.scene.time.fps)) continue;
-        return fmt::format(
-            "wind of {:.3g} m/s takes cloth '{}' of {:.3g} kg/m^2 to its own speed within {:.2g} ms, {:.2g} of a "
-            "frame: a denser cloth, less wind or more frames a second would do",
-            speed, cloth.name, cloth.areal_density, 1000 * seconds, seconds * model.scene.time.fps);
-    }
-    return {};
+    return Finding{.value = taken,
+                   .bound = room,
+                   .collider = collider_place(model.scene, a),
+                   .other = collider_place(model.scene, b)};
 }
 
 }  // namespace
+
+std::optional<HeldInside> held_inside(const SimulationModel& model, std::size_t cloth, double time) {
+    std::optional<HeldInside> found;
+    if (model.scene.colliders.empty()) return found;
+    const std::vector<Held> held = held_particles(model.cloths[cloth], time);
+    for (std::size_t index = 0; index < model.scene.colliders.size() && !held.empty(); ++index) {
+        const Collider collider = formed(model.scene.colliders[index], time);
+        const ColliderPose pose = collider_pose(collider, time);
+        const double reach = shape_geometry(collider.shape).reach;
+        HeldInside one{index, 0, 0};
+        for (const Held& particle : held) {
+            if (distance(particle.now, pose.center) > reach) continue;  // spares the costly distance
+            const double depth = -exact::surface_distance(collider, pose, particle.now);
+            if (!(depth > 0)) continue;
+            ++one.particles;
+            one.depth = std::max(one.depth, depth);
+        }
+        if (one.depth > (found ? found->depth : 0)) found = one;
+    }
+    return found;
+}
 
 double room_between(const Collider& one, const Collider& other, double time) {
     const Collider a = formed(one, time), b = formed(other, time);
@@ -101,10 +115,53 @@ double room_between(const Collider& one, const Collider& other, double time) {
     return length(minus(on_a, on_b));
 }
 
-std::string impossible_scene(const SimulationModel& model, std::uint32_t frame) {
-    if (std::string text = impossible_pins(model, frame); !text.empty()) return text;
-    if (std::string text = pinched(model, frame); !text.empty()) return text;
-    return blown_away(model);
+std::optional<Finding> held_in_collider(const SimulationModel& model, std::size_t cloth, std::uint32_t frame) {
+    const auto found = held_inside(model, cloth, frame / model.scene.time.fps);
+    if (!found) return std::nullopt;
+    return Finding{.value = found->depth,
+                   .collider = collider_place(model.scene, found->collider),
+                   .count = static_cast<std::uint32_t>(found->particles)};
+}
+
+std::optional<Finding> held_apart(const SimulationModel& model, std::size_t index, std::uint32_t frame, double bound) {
+    const ClothModel& cloth = model.cloths[index];
+    if (!cloth.rigid || cloth.start_strain > 0) return std::nullopt;
+    const std::vector<Held> held = held_particles(cloth, frame / model.scene.time.fps);
+    const std::size_t stride = held.size() / 256 + 1;  // all pairs of many take long
+    Finding found{.bound = bound};
+    for (std::size_t a = 0; a < held.size(); a += stride)
+        for (std::size_t b = 0; b < a; b += stride)
+            found.value =
+                std::max(found.value, distance(held[a].now, held[b].now) / distance(held[a].rest, held[b].rest) - 1);
+    return found;
+}
+
+std::optional<Finding> pinched(const SimulationModel& model, std::size_t cloth, std::uint32_t frame) {
+    for (std::size_t a = 0; a < model.scene.colliders.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            if (auto found = pinched_between(model, model.scene.cloths[cloth], b, a, frame / model.scene.time.fps))
+                return found;
+    return std::nullopt;
+}
+
+/// Drag 1/2 rho Cd v^2 accelerates an areal density s to v within 2 s / (rho Cd v).
+std::optional<Finding> blown_away(const SimulationModel& model, std::size_t cloth, double bound) {
+    const Wind& wind = model.scene.wind;
+    if (!wind.blows() || !(wind.drag > 0)) return std::nullopt;
+    const double speed = length(strongest_wind(wind)) + wind.gust.amplitude;
+    const double seconds = 2 * model.scene.cloths[cloth].areal_density / (wind.air_density * wind.drag * speed);
+    return Finding{.value = 1 / (seconds * model.scene.time.fps), .bound = bound};
+}
+
+std::string impossible_scene(const SimulationModel& model, std::uint32_t frame, std::span<const SceneBound> rows) {
+    for (const SceneBound& row : rows)
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+            std::optional<Finding> found = row.find(model, cloth, frame);
+            if (!found || !(found->value > found->bound)) continue;
+            found->cloth = model.cloths[cloth].name;
+            return told(row.words, *found);
+        }
+    return {};
 }
 
 }  // namespace drape

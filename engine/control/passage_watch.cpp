@@ -16,13 +16,21 @@ namespace drape {
 
 namespace {
 
-double least_half_width(const ColliderShape& shape) {
-    const Vec3 size = shape_geometry(shape).size;
-    if (std::holds_alternative<Sphere>(shape)) return size[0];
-    if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->shape->inner_radius() + mesh->grown;
-    if (std::holds_alternative<Capsule>(shape)) return std::min(size[1], size[2]);
-    return *std::ranges::min_element(size);
+/// A collider as far as it may slip through the cells of a cloth.
+struct Solid {
+    double half;       ///< m: half of what it measures at its thinnest
+    bool edges;        ///< beside its faces
+    bool arcs = true;  ///< its points go along arcs where it turns
+};
+/// Nothing: no cell is so wide that a plane fits in.
+std::optional<Solid> solid(const Plane&) { return std::nullopt; }
+std::optional<Solid> solid(const Sphere& sphere) { return Solid{sphere.radius, false, false}; }
+std::optional<Solid> solid(const Box& box) { return Solid{*std::ranges::min_element(box.half_extents), true}; }
+std::optional<Solid> solid(const Ellipsoid& ball) { return Solid{*std::ranges::min_element(ball.radii), false}; }
+std::optional<Solid> solid(const Capsule& capsule) {
+    return Solid{std::min(capsule.radii[0], capsule.radii[1]), false};
 }
+std::optional<Solid> solid(const Mesh& mesh) { return Solid{mesh.shape->inner_radius() + mesh.grown, false}; }
 
 /// Returns the least length of a vector that goes straight from one to another.
 double least_length(const Vec3& from, const Vec3& to) {
@@ -60,19 +68,20 @@ double radius_of(const Cloth& cloth, double strain) {
     return 0.6 * std::hypot(cloth.size[0], cloth.size[1]) * scale * (1 + strain);
 }
 
-/// The way and turn of a collider in a substep, at most.
-struct Motion {
-    double way = 0;   ///< m: no point of the surface moves farther
-    double turn = 0;  ///< radians
+/// The cloth at the begin and end of a frame, and how long it takes.
+struct Frame {
+    std::uint32_t number, substeps;
+    double start, end;  ///< s
+    const ClothStatistics &before, &now;
 };
 
-/// Returns that of the frame that ends at `end`.
-Motion motion_of(const Collider& collider, double end, double h, std::uint32_t substeps) {
-    Motion most;
-    if (!collider.moves()) return most;
-    const double deforms = deformed(collider, end - substeps * h, end) / substeps;
-    for (const std::uint32_t substep : {0u, substeps / 2, substeps - 1}) {
-        const double start = end - (substeps - substep) * h;
+/// Notes how far a collider gets and turns in a substep of the frame, at most.
+void note_motion(const Collider& collider, const Frame& frame, Passing& most) {
+    const double h = (frame.end - frame.start) / frame.substeps;
+    if (!collider.moves()) return;
+    const double deforms = deformed(collider, frame.end - frame.substeps * h, frame.end) / frame.substeps;
+    for (const std::uint32_t substep : {0u, frame.substeps / 2, frame.substeps - 1}) {
+        const double start = frame.end - (frame.substeps - substep) * h;
         glsl::ColliderRecord record = collider_record(collider, start, start + h);
         add_deformation(record, 0, deforms);
         double squared = 0;
@@ -81,40 +90,25 @@ Motion motion_of(const Collider& collider, double end, double h, std::uint32_t s
         most.turn = std::max(most.turn, std::sqrt(squared / 2));
         most.way = std::max(most.way, double(record.way_out.w));
     }
-    return most;
 }
 
-/// The cloth at the begin and end of a frame, and how long it takes.
-struct Frame {
-    std::uint32_t number, substeps;
-    double start, end;  ///< s
-    const ClothStatistics &before, &now;
-};
-
-/// Calls `see(passage)` for what of a collider may be too much for contact, whether it is or not. `own`: the way of the
-/// fastest particle in a substep, m.
-template <class See>
-void look_at(const Cloth& cloth, const Collider& collider, const Frame& frame, double own, const See& see) {
-    constexpr double most_turn = 0.2;  // beyond it the record's way is none (surface_motion)
-    /// Edges and corners of boxes lead triangles away that are not torn apart. Beyond this strain springs follow no
-    /// fabric, of which a run warns too (control/watch.h).
-    constexpr double most_strain = 0.5;
-    const Motion motion = motion_of(collider, frame.end, (frame.end - frame.start) / frame.substeps, frame.substeps);
-    // Thick cloth is kept off boxes by its particles alone, as off round colliders.
-    const bool by_edges = collider.kind() == glsl::kind_box && least_thickness(cloth) < covering_radius(cloth);
-    const double half = least_half_width(collider.shape);
-    if (motion.way > 1e14 && collider.kind() != glsl::kind_sphere)
-        see({.by = Passage::By::turn, .found = std::max(motion.turn, 1.01 * most_turn), .kept = most_turn});
-    else if (by_edges)
-        see({.by = Passage::By::way, .found = 1.25 * (own + motion.way), .kept = half});
-    see({.by = Passage::By::hole,
-         .found = widest_hole(cloth, largest_strains(frame.before, frame.now)),
-         .kept = by_edges ? widest_hole(cloth, {most_strain, most_strain}) : half + least_thickness(cloth)});
+/// `own`: the way of the fastest particle in a substep, m.
+Passing passing_by(const Cloth& cloth, const Collider& collider, const Solid& solid, const Frame& frame, double own) {
+    Passing passing{.cloth_way = own,
+                    .half = solid.half,
+                    .thickness = least_thickness(cloth),
+                    .hole = widest_hole(cloth, largest_strains(frame.before, frame.now)),
+                    .largest_hole = widest_hole(cloth, {springs_mean, springs_mean})};
+    // Thick cloth is kept off edges by its particles alone, as off round colliders.
+    passing.by_edges = solid.edges && passing.thickness < covering_radius(cloth);
+    note_motion(collider, frame, passing);
+    passing.turns_far = solid.arcs && passing.way > 1e14;  // a record says so where it knows no way
+    return passing;
 }
 
-/// Calls `see(passage)` for every collider that comes near the cloth in the frame.
-template <class See>
-void for_those_near(const SimulationModel& model, std::size_t index, const Frame& frame, const See& see) {
+/// Returns what every row of the table finds of every collider that comes near the cloth in the frame.
+std::vector<Passage> passages(const SimulationModel& model, std::size_t index, const Frame& frame) {
+    std::vector<Passage> all;
     const Cloth& cloth = model.scene.cloths[index];
     const std::vector<KeptCollider>& kept = model.kept_colliders[model.cloths[index].collider_list];
     const std::array<double, 2> strains = largest_strains(frame.before, frame.now);
@@ -123,18 +117,19 @@ void for_those_near(const SimulationModel& model, std::size_t index, const Frame
         std::max(frame.before.largest_speed, frame.now.largest_speed) * (frame.end - frame.start) / frame.substeps;
     for (std::size_t k = 0; k < kept.size(); ++k) {
         const Collider& collider = kept[k].collider;
-        if (collider.kind() == glsl::kind_plane) continue;
+        const auto solid_of = [](const auto& shape) { return solid(shape); };
+        const std::optional<Solid> body = std::visit(solid_of, collider.shape);
+        if (!body) continue;
         const double apart =
             least_length(minus(collider_pose(collider, frame.start).center, frame.before.center_of_mass),
                          minus(collider_pose(collider, frame.end).center, frame.now.center_of_mass));
         if (!(apart < shape_geometry(collider.shape).reach + radius + 2 * own)) continue;
-        look_at(cloth, collider, frame, own, [&](Passage passage) {
-            passage.frame = frame.number;
-            passage.cloth = static_cast<std::uint32_t>(index);
-            passage.collider = static_cast<std::uint32_t>(k);
-            see(passage);
-        });
+        const Passing passing = passing_by(cloth, collider, *body, frame, own);
+        for (std::uint8_t row = 0; row < passage_bounds().size(); ++row)
+            all.push_back({row, frame.number, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(k),
+                           passage_bounds()[row].value(passing), passage_bounds()[row].bound(passing)});
     }
+    return all;
 }
 
 }  // namespace
@@ -146,68 +141,34 @@ double passage_judgement(const SimulationModel& model, std::uint32_t frame, std:
     for (std::size_t cloth = 0; cloth < now.size(); ++cloth) {
         // Only particles are kept out then, with any substeps.
         if (model.scene.cloths[cloth].contact == ContactOf::particles) continue;
-        for_those_near(model, cloth, {frame, substeps, (frame - 1) / fps, frame / fps, before[cloth], now[cloth]},
-                       [&](const Passage& passage) {
-                           if (passage.by != Passage::By::hole) worst = std::max(worst, passage.found / passage.kept);
-                       });
+        const Frame seen{frame, substeps, (frame - 1) / fps, frame / fps, before[cloth], now[cloth]};
+        for (const Passage& passage : passages(model, cloth, seen))
+            if (passage_bounds()[passage.row].substeps_help) worst = std::max(worst, passage.found / passage.kept);
     }
     return worst;
 }
 
-std::vector<ClothStatistics> starting_statistics(const SimulationModel& model) {
-    std::vector<ClothStatistics> all;
-    for (const ClothModel& cloth : model.cloths) {
-        ClothStatistics& start = all.emplace_back();
-        start.stretch.largest = start.shear.largest = cloth.start_strain;
-        start.largest_speed = cloth.start_speed;
-        const std::vector<float> shares = mass_shares(cloth);
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const glsl::vec4& at = cloth.position[i];
-            start.mass += shares[i];
-            start.center_of_mass = plus(start.center_of_mass, times(shares[i], Vec3{at.x, at.y, at.z}));
-        }
-        start.center_of_mass = times(1 / std::max(start.mass, 1e-300), start.center_of_mass);
-    }
-    return all;
-}
-
 void PassageWatch::look(std::uint32_t frame, std::uint32_t substeps, std::span<const ClothStatistics> cloths) {
     const double fps = model_.scene.time.fps;
-    std::optional<Passage> found;
-    for (std::size_t cloth = 0; cloth < cloths.size() && !last_.empty() && frame > last_frame_ && !found; ++cloth)
-        for_those_near(model_, cloth, {frame, substeps, last_frame_ / fps, frame / fps, last_[cloth], cloths[cloth]},
-                       [&](const Passage& passage) {
-                           if (!found && passage.found > passage.kept) found = passage;
-                       });
-    if (found && frames_++ == 0) first_ = *found;
+    bool found = false;
+    for (std::size_t cloth = 0; cloth < last_.size() && frame > last_frame_; ++cloth) {
+        const Frame seen{frame, substeps, last_frame_ / fps, frame / fps, last_[cloth], cloths[cloth]};
+        for (const Passage& passage : passages(model_, cloth, seen)) {
+            if (found || !(passage.found > passage.kept)) continue;
+            found = true;
+            if (frames_++ == 0) first_ = passage;
+        }
+    }
     last_.assign(cloths.begin(), cloths.end());
     last_frame_ = frame;
 }
 
 std::optional<std::string> PassageWatch::text() const {
     if (frames_ == 0) return std::nullopt;
-    const std::string who =
-        fmt::format("in {} frame{}, from frame {} on, {} may have passed between the particles of cloth '{}'", frames_,
-                    frames_ == 1 ? "" : "s", first_.frame, collider_place(model_.scene, first_.collider),
-                    model_.scene.cloths[first_.cloth].name);
-    switch (first_.by) {
-        case Passage::By::way:
-            return fmt::format(
-                "{}: in a substep one moved by {:.3g} m at most relative to the other, contact is sure up to {:.3g} m; "
-                "more substeps or a thicker collider may help",
-                who, first_.found, first_.kept);
-        case Passage::By::turn:
-            return fmt::format(
-                "{}: in a substep it turned by more than {:.3g} radians, up to which contact is sure; more substeps "
-                "may help",
-                who, first_.kept);
-        case Passage::By::hole:
-            break;
-    }
-    return fmt::format(
-        "{}: its triangles came to {:.3g} m about their middles, of which {:.3g} m lets it through; a finer grid, less "
-        "stretch or more thickness may help",
-        who, first_.found, first_.kept);
+    return fmt::format("in {} frame{}, from frame {} on, {} may have passed between the particles of cloth '{}': {}",
+                       frames_, frames_ == 1 ? "" : "s", first_.frame, collider_place(model_.scene, first_.collider),
+                       model_.scene.cloths[first_.cloth].name,
+                       told(passage_bounds()[first_.row].words, {.value = first_.found, .bound = first_.kept}));
 }
 
 }  // namespace drape

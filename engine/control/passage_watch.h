@@ -6,35 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "cloth/simulation_model.h"
 #include "cloth/statistics_transfer.h"
-#include "drape/statistics.h"
+#include "control/bounds.h"
 
 namespace drape {
 
-/// Contact keeps particles out of every collider, however fast. What is drawn between them it keeps out
-/// - of a box if nothing near it goes farther in a substep than half of what the box measures at its thinnest, because
-///   edges meet edges only where they end, and at no thickness, and no spring is stretched by more than half, or the
-///   cloth is so thick that its particles keep it out;
-/// - of a collider that turns if it turns by less than 0.2 radians in a substep, since an arc is no straight way;
-/// - of round colliders if no triangle of the cloth is so wide that the collider fits between its corners.
-/// It is judged by a frame's statistics: the fastest particle at its begin and end, the longest spring, and a ball
-/// about the centre of mass that holds the cloth. So what is far from the cloth is left out, and nothing is read back
-/// for it.
+/// Contact keeps particles out of every collider, however fast; of what is drawn between them the rows of
+/// passage_bounds() say how far. They are asked of a frame's statistics: the fastest particle at its begin and end, the
+/// longest spring, and a ball about the centre of mass that holds the cloth. So what is far from the cloth is left out,
+/// and nothing is read back for it.
 struct Passage {
-    enum class By : std::uint8_t { way, turn, hole };
-    By by = By::way;
+    std::uint8_t row = 0;  ///< of passage_bounds() (bounds.h)
     std::uint32_t frame = 0, cloth = 0, collider = 0;
-    double found = 0, kept = 0;  ///< m, of a turn radians: what there was, and up to which contact is sure
+    double found = 0, kept = 0;  ///< what there was, and up to which contact is sure
 };
 
 /// Returns by how much the ways and turns of a frame's substeps exceed what contact is sure of, found over kept of the
 /// worst; 0 where nothing is near. More substeps lessen it, unlike a hole. `before`: statistics of the frame's begin.
 double passage_judgement(const SimulationModel& model, std::uint32_t frame, std::uint32_t substeps,
                          std::span<const ClothStatistics> before, std::span<const ClothStatistics> now);
-
-/// Returns of the statistics of frame 0, known without a device, those that the above asks for.
-std::vector<ClothStatistics> starting_statistics(const SimulationModel& model);
 
 class PassageWatch {
   public:
@@ -50,14 +40,13 @@ class PassageWatch {
     template <class Archive>
     bool transfer(Archive& archive) {
         bool seen = !last_.empty();
-        auto by = static_cast<std::uint8_t>(first_.by);
-        archive(last_frame_, frames_, seen, by, first_.frame, first_.cloth, first_.collider, first_.found, first_.kept);
-        first_.by = static_cast<Passage::By>(by);
+        archive(last_frame_, frames_, seen, first_.row, first_.frame, first_.cloth, first_.collider, first_.found,
+                first_.kept);
         last_.resize(seen ? model_.cloths.size() : 0);
         for (ClothStatistics& cloth : last_) transfer_statistics(archive, cloth);
         const bool told =
             frames_ == 0 || (first_.cloth < model_.cloths.size() && first_.collider < model_.scene.colliders.size());
-        return told && by <= static_cast<std::uint8_t>(Passage::By::hole);
+        return told && first_.row < passage_bounds().size();
     }
 
   private:

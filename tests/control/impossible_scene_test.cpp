@@ -49,9 +49,8 @@ std::string reason_for(const SceneDescription& scene, std::uint32_t frame) {
 TEST(ImpossibleScene, CollidersThatLeaveNoRoomForCloth) {
     EXPECT_THAT(reason_for(press(0.091), 60), IsEmpty()) << "it takes twice its thickness";
     EXPECT_THAT(reason_for(press(0.093), 30), IsEmpty());
-    EXPECT_THAT(
-        reason_for(press(0.093), 60),
-        HasSubstr("collider 0 (of spheres) and collider 1 (of spheres) leave 0.007 m between them, where cloth"));
+    EXPECT_THAT(reason_for(press(0.093), 60),
+                HasSubstr("/colliders/spheres/0 and /colliders/spheres/1 leave 0.007 m between them, where cloth"));
     EXPECT_THAT(reason_for(press(0.093), 60), HasSubstr("takes 0.008"));
     EXPECT_THAT(reason_for(press(0.2), 60), HasSubstr("leave 0 m"));
     SceneDescription joined = press(0);  // nothing was ever between them
@@ -65,8 +64,7 @@ TEST(ImpossibleScene, WindThatTakesClothAlongAtOnce) {
     scene.time = {60, 61};
     scene.cloths[0].areal_density = 0.005;
     scene.wind.velocity = {0, 0, 40};
-    EXPECT_THAT(reason_for(scene, 6), HasSubstr("wind of 40 m/s takes cloth"));
-    EXPECT_THAT(reason_for(scene, 6), HasSubstr("within 0.21 ms"));
+    EXPECT_THAT(reason_for(scene, 6), HasSubstr("wind takes cloth 'sheet' to its own speed 80 times over in a frame"));
     scene.cloths[0].areal_density = 0.15;
     EXPECT_THAT(reason_for(scene, 6), IsEmpty());
 }

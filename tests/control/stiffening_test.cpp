@@ -1,6 +1,4 @@
 // Keys that make a cloth stiffer do work on it, of which the watch knows.
-#include "control/stiffening.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

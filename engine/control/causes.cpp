@@ -1,0 +1,242 @@
+#include "control/causes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vectors.h"
+#include "cloth/cloth_statistics.h"
+#include "cloth/frame_inputs.h"
+#include "world/collider_pose.h"
+#include "world/weather.h"
+
+namespace drape {
+
+namespace {
+
+/// Speeds of key-framed things are taken over this part of a frame: splines between keys hardly bend in it.
+constexpr int parts_of_a_frame = 4;
+constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
+/// Strains are told of positions in single precision, which tell a strain from a hundredth more of it even where a
+/// cloth is a thousand of its cells away from the origin.
+constexpr double rounding = 1.01;
+
+/// Returns how far a point within `reach` of the centre gets by turning between two poses, at most.
+double turned(const std::array<double, 9>& before, const std::array<double, 9>& now, double reach) {
+    double square = 0;
+    for (std::size_t k = 0; k < 9; ++k) square += (now[k] - before[k]) * (now[k] - before[k]);
+    return square > 0 ? std::sqrt(square) * reach : 0;
+}
+
+/// The ways of what moves in some time, m: of pins, of any point of colliders, of the centres and forms of these alone.
+struct Ways {
+    double pins = 0, surfaces = 0, centers = 0;
+};
+
+Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::Start& start, double from, double to) {
+    Ways most;
+    for (const DynamicPin& pin : cloth.dynamic_pins) {
+        const RigidTransform before = pin_transform(pin, from), now = pin_transform(pin, to);
+        const auto pivot = [&](const RigidTransform& at) {
+            return plus(rotate(at.rotation, pin.pivot), at.translation);
+        };
+        most.pins = std::max(
+            most.pins, distance(pivot(before), pivot(now)) + turned(before.rotation, now.rotation, start.diagonal));
+    }
+    for (const Collider& collider : model.scene.colliders) {
+        if (!collider.moves()) continue;
+        const ColliderPose before = collider_pose(collider, from), now = collider_pose(collider, to);
+        const ShapeGeometry shape = shape_geometry(collider.shape);
+        const double center = distance(before.center, now.center) + deformed(collider, from, to);
+        const double reach = std::min(shape.reach, start.distance + length(shape.center));
+        most.centers = std::max(most.centers, center);
+        most.surfaces = std::max(most.surfaces, center + turned(before.rotation, now.rotation, reach));
+    }
+    return most;
+}
+
+/// Returns the largest strain of springs along rows and columns that are held at both ends where the cloth starts.
+double strain_between_pins(const ClothModel& cloth) {
+    double largest = 0;
+    for (std::uint32_t row = 0; row < cloth.grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < cloth.grid.columns(); ++column)
+            for (const std::uint32_t axis : {0u, 1u}) {
+                if ((axis == 0 ? column : row) == 0) continue;
+                const glsl::vec4& p = cloth.position[cloth.grid.particle(column, row)];
+                const glsl::vec4& q = cloth.position[cloth.grid.particle(column - (1 - axis), row - axis)];
+                if (p.w != 0 || q.w != 0) continue;
+                const double now = distance({p.x, p.y, p.z}, {q.x, q.y, q.z});
+                largest = std::max(largest, std::abs(now / cloth.spacing[axis] - 1));
+            }
+    return largest;
+}
+
+bool is_stiffened(const Cloth& cloth) {
+    return std::ranges::adjacent_find(cloth.stiffness_keys, std::ranges::less(), &FactorKey::factor) !=
+           cloth.stiffness_keys.end();
+}
+
+/// A cloth that keys make stiffer was stretched by gravity at its softest, f: the strain rho g L/(k f) of a strip that
+/// hangs by its end comes back at the speed of waves sqrt(k/rho) of the whole stiffness.
+double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
+    if (!is_stiffened(cloth)) return 0;
+    const double softest = std::ranges::min(cloth.stiffness_keys, {}, &FactorKey::factor).factor;
+    return length(strongest_gravity(scene)) * std::max(cloth.size[0], cloth.size[1]) *
+           std::sqrt(cloth.areal_density / cloth.stiffness.stretch) / softest;
+}
+
+Causes::Start start_of(const SceneDescription& scene, const Cloth& described, const ClothModel& cloth,
+                       const ClothStatistics& statistics) {
+    Causes::Start start{.mean = statistics.center_of_mass, .diagonal = cloth.reach()};
+    const std::vector<float> shares = mass_shares(cloth);
+    double squares = 0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const glsl::vec4& at = cloth.position[i];
+        start.distance = std::max(start.distance, length({at.x, at.y, at.z}));
+        start.held = start.held || (at.w == 0 && shares[i] > 0);
+        if (!cloth.velocities.empty() && at.w > 0) squares += shares[i] * dot(cloth.velocities[i], cloth.velocities[i]);
+    }
+    start.held = start.held && !cloth.has_release && !scene.comes_apart();
+    start.square_speed =
+        cloth.velocities.empty() ? dot(cloth.velocity, cloth.velocity) : squares / std::max(statistics.mass, 1e-300);
+    start.strain = rounding * cloth.start_strain;
+    if (start.strain > 0) start.held_strain = rounding * strain_between_pins(cloth);
+    // Inextensible cloth has no speed of waves: strain is through all of it in a frame.
+    start.wave = described.stiffness.rigid ? start.diagonal * scene.time.fps
+                                           : std::sqrt(described.stiffness.stretch / described.areal_density);
+    const double mass = cloth.inner_mass * (cloth.grid.columns() - 1) * (cloth.grid.rows() - 1);
+    start.released = start.strain * start.wave + std::sqrt(2 * cloth.start_bending() / mass);
+    start.recoil = recoil_of(scene, described);
+    return start;
+}
+
+}  // namespace
+
+std::vector<ClothStatistics> starting_statistics(const SimulationModel& model) {
+    std::vector<ClothStatistics> all;
+    for (const ClothModel& cloth : model.cloths) {
+        ClothStatistics& start = all.emplace_back();
+        start.stretch.largest = start.shear.largest = cloth.start_strain;
+        start.largest_speed = cloth.start_speed;
+        const std::vector<float> shares = mass_shares(cloth);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const glsl::vec4& at = cloth.position[i];
+            start.mass += shares[i];
+            start.center_of_mass = plus(start.center_of_mass, times(shares[i], Vec3{at.x, at.y, at.z}));
+        }
+        start.center_of_mass = times(1 / std::max(start.mass, 1e-300), start.center_of_mass);
+    }
+    return all;
+}
+
+Causes::Causes(const SimulationModel& model) : model_(model) {
+    const auto moves = [](const auto& any) { return any.moves(); };
+    const std::vector<ClothStatistics> statistics = starting_statistics(model);
+    for (std::size_t k = 0; k < model.cloths.size(); ++k)
+        starts_.push_back(start_of(model.scene, model.scene.cloths[k], model.cloths[k], statistics[k]));
+    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // such cloth may be lifted
+    passive_ = !model.windy && !led_apart_ && std::ranges::none_of(model.scene.colliders, moves) &&
+               std::ranges::none_of(model.cloths, &ClothModel::has_motion);
+    drives_.assign(1, std::vector<Drive>(starts_.size()));
+    if (std::ranges::any_of(model.scene.cloths, is_stiffened)) work_ = kept_ = std::vector<double>(starts_.size());
+}
+
+/// Goes on from a frame to the next one.
+void Causes::advance(std::size_t cloth, std::uint32_t frame, Drive& drive) const {
+    const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
+    const double begin = static_cast<double>(frame) * parts_of_a_frame;
+    const auto ways_between = [&](double from, double to) {
+        return ways(model_, model_.cloths[cloth], starts_[cloth], from * part, to * part);
+    };
+    for (int k = 0; k < parts_of_a_frame; ++k) {
+        const Ways now = ways_between(begin + k, begin + k + 1);
+        drive.speed = std::max(drive.speed, (now.pins + 2 * now.surfaces) / part);
+        drive.travel += now.pins + 2 * now.surfaces;
+    }
+    const Ways now = ways_between(begin, begin + parts_of_a_frame);
+    const double pace = std::max(now.pins, now.centers) / (parts_of_a_frame * part);
+    drive.pace = std::max(drive.pace, pace);
+    if (pace > 0) drive.moved = frame + 1;
+}
+
+/// A long run does not remember all its frames: one that was forgotten is reckoned from the start again.
+void Causes::extend(std::uint32_t frame) {
+    if (frame < first_) {
+        first_ = 0;
+        drives_.assign(1, std::vector<Drive>(starts_.size()));
+    }
+    while (first_ + drives_.size() <= frame) {
+        std::vector<Drive> next = drives_.back();
+        for (std::size_t cloth = 0; cloth < next.size(); ++cloth)
+            advance(cloth, first_ + static_cast<std::uint32_t>(drives_.size()) - 1, next[cloth]);
+        drives_.push_back(std::move(next));
+        if (drives_.size() <= frames_remembered) continue;
+        drives_.pop_front();
+        ++first_;
+    }
+}
+
+bool Causes::driven(std::uint32_t frame, double seconds) const {
+    std::uint32_t moved = 0;
+    for (std::size_t cloth = 0; cloth < starts_.size(); ++cloth) moved = std::max(moved, drive(frame, cloth).moved);
+    return frame - std::min(moved, frame) <= seconds * model_.scene.time.fps;
+}
+
+/// Returns m/s at which cloth moves away that lies nearer to something than it may.
+double Causes::pushed() const {
+    const double out_of_cloth =
+        (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
+    return model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
+}
+
+/// Returns the speed that a cloth may have by what acts on it, m/s, without what other cloths give it. Held cloth falls
+/// no farther than twice its diagonal d, so no faster than 2 sqrt(g d). Pins and colliders that moved may have strained
+/// it by their travel over its smaller side, all of it at most, which comes back at the speed of waves.
+double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
+    const Cloth& cloth = model_.scene.cloths[index];
+    const Start& start = starts_[index];
+    const double time = frame / model_.scene.time.fps, gravity = length(strongest_gravity(model_.scene));
+    const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
+    const double wind = length(strongest_wind(model_.scene.wind)) + std::abs(model_.scene.wind.gust.amplitude);
+    const double strained = std::min(drive(frame, index).travel / std::min(cloth.size[0], cloth.size[1]), 1.0);
+    return model_.cloths[index].start_speed + fall + (model_.windy ? wind : 0) + start.released + pushed() +
+           drive(frame, index).speed + strained * start.wave + start.recoil;
+}
+
+Causes::Reach Causes::reach(std::uint32_t frame, std::size_t index) const {
+    Reach reach{own_speed(frame, index), drive(frame, index).travel};
+    if (!model_.self_contact) return reach;
+    double speed = 0, travel = 0;
+    for (std::size_t other = 0; other < starts_.size(); ++other) {
+        if (other == index) continue;
+        speed = std::max(speed, own_speed(frame, other));
+        travel = std::max(travel, drive(frame, other).travel);
+    }
+    return {reach.speed + 2 * speed, reach.travel + travel};
+}
+
+/// The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at the
+/// full stiffness, though it was never stored.
+Causes::Energy Causes::energy(std::size_t index, const ClothStatistics& now) const {
+    const Start& start = starts_[index];
+    const double moving = 0.5 * now.mass * start.square_speed, led = pushed();
+    const double start_energy = moving - now.mass * dot(gravity_at(model_.scene, 0), start.mean);
+    return {now.kinetic_energy + now.potential_energy - start_energy,
+            moving + now.mass * length(strongest_gravity(model_.scene)) * start.diagonal,
+            now.mass * (start.released * start.released + led * led) + (stiffens() ? work_[index] : 0), now.mass};
+}
+
+void Causes::begin(std::uint32_t frame) {
+    extend(frame);
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        if (frame == 0) {
+            work_[k] = kept_[k] = 0;
+            continue;
+        }
+        const Cloth& cloth = model_.scene.cloths[k];
+        const double before = stiffness_factor(model_.scene, cloth, frame - 1),
+                     now = stiffness_factor(model_.scene, cloth, frame);
+        work_[k] += std::max(now / before - 1, 0.0) * kept_[k];
+    }
+}
+
+}  // namespace drape
