@@ -64,8 +64,8 @@ void AutoPilot::attempt_anew() {
     begin_attempt();
 }
 
-void AutoPilot::abandon() {
-    const bool moved = attempt_.phase != Phase::done && attempt_.phase != Phase::asleep && !attempt_.keeps;
+void AutoPilot::abandon(const Work& refused) {
+    const bool moved = !attempt_.keeps && refused.before != StateStep::keep;
     ByteReader reader(begun_);
     read(reader);
     if (moved) attempt_.phase = Phase::restore;
@@ -194,10 +194,9 @@ void AutoPilot::take_coarse(const WorkResult& result) {
 void AutoPilot::take_fine(const Work& work, const WorkResult& result) {
     Judgement& judgement = attempt_.judgement;
     const std::vector<ClothStatistics> start = before_.empty() ? starting_statistics(model_) : before_;
-    judgement.passage =
-        std::max(judgement.passage,
-                 passage_judgement(model_, work.frame, work.substeps,
-                                   attempt_.next == 0 ? start : kept_.statistics.back(), result.statistics));
+    judgement.passage = std::max(
+        judgement.passage, passage_judgement(model_, work.frame, work.substeps,
+                                             attempt_.next == 0 ? start : kept_.statistics.back(), result.statistics));
     if (model_.self_contact) judgement.lag = std::max(judgement.lag, lag_judgement(model_, result.contact));
     kept_.statistics.push_back(result.statistics);
     kept_.contacts.push_back(result.contact);
@@ -257,8 +256,8 @@ void AutoPilot::refuse() {
         "{}, the most that method auto tries{}{}",
         kept_.first, criterion, times, segment.substeps, model_.method().name, impossible.empty() ? "" : "; ",
         impossible);
-    attempt_.refusal = FrameFailure{FrameFailure::Kind::tolerance, text, kept_.first,
-                                    fmt::format("{} over its limit", criterion), times, 1};
+    attempt_.refusal = FrameFailure{
+        FrameFailure::Kind::tolerance, text, kept_.first, fmt::format("{} over its limit", criterion), times, 1};
 }
 
 void AutoPilot::keep() {
@@ -317,8 +316,7 @@ void AutoPilot::finish() {
 
 template <class Archive>
 bool AutoPilot::transfer(Archive& archive) {
-    archive(simulated_);
-    for (std::uint32_t& history : histories_) archive(history);
+    archive(histories_[0], simulated_, histories_[1], histories_[2]);
     stated_.sensitivity.transfer(archive);
     if (!stated_.error.transfer(archive)) throw Error("not as many cloths that have errors");
     if (!control_.transfer(archive)) throw Error("no such substeps");

@@ -24,7 +24,7 @@ class AutoPilot : public Pilot {
     void begin() override;
     std::optional<Work> next_work() override;
     FrameEffort take(const Work& work, const WorkResult& result) override;
-    void abandon() override;
+    void abandon(const Work& refused) override;
     void attempt_anew() override;
     const KeptFrames* kept() const override { return &kept_; }
     const std::optional<FrameFailure>& refusal() const override { return attempt_.refusal; }
@@ -37,17 +37,17 @@ class AutoPilot : public Pilot {
     /// The work goes through these in order, but for what is not needed.
     enum class Phase {
         done,
-        asleep,             ///< hands out the frame before again
-        coarse,             ///< a probe's frames with half the substeps
-        fine,               ///< the segment's frames
-        hand_out,           ///< a probe's frame, which is not the last
-        companion,          ///< the segment's frames in this set
-        disturbed,          ///< the same in this one
+        asleep,     ///< hands out the frame before again
+        coarse,     ///< a probe's frames with half the substeps
+        fine,       ///< the segment's frames
+        hand_out,   ///< a probe's frame, which is not the last
+        companion,  ///< the segment's frames in this set
+        disturbed,  ///< the same in this one
         compare_companion,
         compare_disturbed,
-        disturb,            ///< begins the disturbed run
-        finish,             ///< hands out the segment's last frame
-        restore             ///< takes back what was abandoned
+        disturb,  ///< begins the disturbed run
+        finish,   ///< hands out the segment's last frame
+        restore   ///< takes back what was abandoned
     };
     /// The attempt at a segment.
     struct Attempt {

@@ -3,10 +3,7 @@
 namespace drape {
 
 NamedPilot::NamedPilot(const SimulationModel& model)
-    : model_(model),
-      companion_substeps_(model.scene.solver.substeps),
-      position_error_(model),
-      sensitivity_(model) {}
+    : model_(model), companion_substeps_(model.scene.solver.substeps), position_error_(model), sensitivity_(model) {}
 
 Work NamedPilot::frame_in(StateSet set, std::uint32_t substeps, std::uint32_t history_substeps) const {
     Work work;
@@ -47,8 +44,11 @@ FrameEffort NamedPilot::take(const Work& work, const WorkResult& result) {
 
 template <class Archive>
 bool NamedPilot::transfer(Archive& archive) {
-    archive(simulated_, companion_substeps_);
-    return position_error_.transfer(archive) && companion_substeps_ > 0;
+    archive(companion_substeps_, simulated_);
+    const std::uint32_t own = model_.scene.solver.substeps;
+    const bool can_be = companion_substeps_ == own ||
+                        (model_.has_companions() && companion_substeps_ == model_.companion_substeps(own));
+    return position_error_.transfer(archive) && can_be;
 }
 
 void NamedPilot::write(ByteWriter& writer) const { const_cast<NamedPilot*>(this)->transfer(writer); }

@@ -16,7 +16,7 @@ class NamedPilot : public Pilot {
     void begin() override { next_ = model_.has_companions() ? StateSet::companion : StateSet::run; }
     std::optional<Work> next_work() override;
     FrameEffort take(const Work& work, const WorkResult& result) override;
-    void abandon() override {}
+    void abandon(const Work&) override {}
     void attempt_anew() override {}
     const KeptFrames* kept() const override { return nullptr; }
     const std::optional<FrameFailure>& refusal() const override { return refusal_; }
@@ -35,7 +35,7 @@ class NamedPilot : public Pilot {
     std::uint32_t companion_substeps_;  ///< of the companion's history
     std::optional<StateSet> next_;      ///< the next frame is simulated in this set; nothing: it is done
     MotionError position_error_;
-    Sensitivity sensitivity_;            ///< never begins: the closed loop alone asks for it
+    Sensitivity sensitivity_;              ///< never begins: the closed loop alone asks for it
     std::optional<FrameFailure> refusal_;  ///< stays empty
 };
 

@@ -33,7 +33,7 @@ struct Work {
     StateSet set = StateSet::run;
     std::optional<StateStep> before, after;
     bool simulates = false;
-    std::uint32_t substeps = 0;          ///< of the frame that is simulated, or that the state has been through; 0: none
+    std::uint32_t substeps = 0;  ///< of the frame that is simulated, or that the state has been through; 0: none
     std::uint32_t history_substeps = 0;  ///< those of the state's history
     bool hands_out = false;              ///< the state is the frame's
     std::optional<KnownFrame> known;     ///< of a frame that is handed out after it was simulated
@@ -78,8 +78,9 @@ class Pilot {
     /// Learns from work that simulated or compared, in the order in which it was given. Returns the effort of a frame
     /// that was handed out as it was simulated.
     virtual FrameEffort take(const Work& work, const WorkResult& result) = 0;
-    /// Forgets what was done since `begin`; `next_work` then takes the state back, where that is needed.
-    virtual void abandon() = 0;
+    /// Forgets what was done since `begin`, and `refused`, which was not begun; `next_work` then takes the state back,
+    /// where that is needed.
+    virtual void abandon(const Work& refused) = 0;
     /// Begins the attempt at the frames again, from a state that was restored: what did it had no room.
     virtual void attempt_anew() = 0;
     /// Returns the frames that are done once `next_work` says nothing; those of a named method are told in `take`.

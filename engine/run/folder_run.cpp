@@ -145,9 +145,8 @@ void FolderRun::begin(Simulation& simulation) {
         for (const std::string& note : notes(*device_, simulation)) say(note);
     manifest_ = describe_run(request_, planned_.scene, simulation, device_->info(), planned_.range);
     manifest_.run_key = planned_.key;
-    sink_.emplace(folder_, request_, simulation.scene(),
-                  written_run(request_, planned_.scene, simulation, manifest_), planned_.missing.kept,
-                  keeps_checkpoints() ? &checkpoints_->journal() : nullptr);
+    sink_.emplace(folder_, request_, simulation.scene(), written_run(request_, planned_.scene, simulation, manifest_),
+                  planned_.missing.kept, keeps_checkpoints() ? &checkpoints_->journal() : nullptr);
 }
 
 /// Takes the simulation to the checkpoint, and tells the writers what they were told before it.
@@ -297,7 +296,8 @@ void FolderRun::finish_files() {
 /// Leaves a reproducer to be replayed. What keeps it from being written has been told, or is told of the manifest.
 void FolderRun::leave_reproducer() {
     if (failure_->status == output_failed) return;
-    Reproducer reproducer{.scene = request_.scene, .scene_text = planned_.scene.text, .keep_failed = request_.keep_failed};
+    Reproducer reproducer{
+        .scene = request_.scene, .scene_text = planned_.scene.text, .keep_failed = request_.keep_failed};
     reproducer.start = planned_.range.start, reproducer.end = planned_.range.end, reproducer.step = planned_.range.step;
     reproducer.program_version = program_version();
     reproducer.run_key = manifest_.run_key;
@@ -317,7 +317,7 @@ void FolderRun::leave_reproducer() {
         manifest_.reproducer = reproducer_file_name;
         if (request_.message)
             request_.message(fmt::format("note: `drape replay {}` goes to this failure again",
-                                        folder_->path_of(reproducer_file_name)));
+                                         folder_->path_of(reproducer_file_name)));
     } catch (const OutputError&) {  // the run's own failure is told
     }
 }

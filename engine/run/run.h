@@ -86,14 +86,14 @@ RunSummary run_scene(const RunRequest& request);
 
 /// How one of several runs ended.
 struct RunEnd {
-    std::size_t number = 0;        ///< of its request
-    bool complete = false;         ///< false: it was stopped, or it failed
+    std::size_t number = 0;           ///< of its request
+    bool complete = false;            ///< false: it was stopped, or it failed
     std::exception_ptr failure = {};  ///< what run_scene would have thrown
 };
 /// Makes the runs of scenes of one shape, for which method `auto` chooses the same, together on the first one's device:
-/// they share dispatches. No format draws, and there are no checkpoints. Each gets the bytes that run_scene makes of it.
-/// Tells of each run that ended. Throws DeviceError where the device fails, or cannot take them together; the runs that
-/// were not told of then have not ended.
+/// they share dispatches. No format draws, and there are no checkpoints. Each gets the bytes that run_scene makes of
+/// it. Tells of each run that ended. Throws DeviceError where the device fails, or cannot take them together; the runs
+/// that were not told of then have not ended.
 void run_scenes_together(std::span<const RunRequest> requests, const std::function<void(const RunEnd&)>& ended);
 
 /// Returns the scene as it is asked for. Throws SceneFailure.

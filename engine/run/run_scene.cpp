@@ -66,7 +66,8 @@ void run_scenes_together(std::span<const RunRequest> requests, const std::functi
         });
         if (begun) continue;
         each.run.reset();
-        frames.push_back({.last = 0, .wanted = [](std::uint32_t) { return false; }, .finished = {}, .stop = [] { return true; }});
+        frames.push_back(
+            {.last = 0, .wanted = [](std::uint32_t) { return false; }, .finished = {}, .stop = [] { return true; }});
     }
     const std::vector<RequestEnd> ends = Simulation::run_together(simulations, frames);
     for (std::size_t k = 0; k < all.size(); ++k)

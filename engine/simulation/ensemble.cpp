@@ -145,7 +145,9 @@ void Ensemble::reset(std::span<const std::size_t> members) {
 }
 
 MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->frames->array(cloth, MemberValue::position); }
-MemberArray Ensemble::velocities(std::size_t cloth) const { return parts_->frames->array(cloth, MemberValue::velocity); }
+MemberArray Ensemble::velocities(std::size_t cloth) const {
+    return parts_->frames->array(cloth, MemberValue::velocity);
+}
 MemberArray Ensemble::normals(std::size_t cloth) const {
     if (!parts_->options.normals) throw Error("no normals: the ensemble was made without");
     return parts_->frames->array(cloth, MemberValue::normal);

@@ -23,6 +23,12 @@ void fill(const SimulationModel& model, std::uint32_t substeps, FrameInputs& inp
         inputs.pins[cloth].assign(model.cloths[cloth].dynamic_pins.size() * substeps, {});
 }
 
+void keep_last_set(FrameInputs& inputs) {
+    const auto count = static_cast<std::ptrdiff_t>(inputs.colliders.size() / inputs.collider_sets);
+    inputs.colliders.erase(inputs.colliders.begin(), inputs.colliders.end() - count);
+    inputs.collider_sets = 1;
+}
+
 bool compares(const std::optional<StateStep>& step) {
     using enum StateStep;
     return step == compare || step == compare_companion || step == compare_disturbed;
@@ -107,7 +113,11 @@ void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Fl
             fill(graphs.member(member), substeps, members_[member]);
     for (std::size_t place = 0; place < flight.members.size(); ++place) {
         const std::size_t member = flight.members[place];
-        take_frame_inputs(graphs.member_at(member, at), flight.jobs[place].work.frame, members_[member]);
+        FrameInputs& own = members_[member];
+        take_frame_inputs(graphs.member_at(member, at), flight.jobs[place].work.frame, own);
+        // Members of a closed loop begin with substeps of their own: what is not simulated has the last one's
+        // colliders.
+        if (!flight.contents.simulates) keep_last_set(own);
     }
     join_inputs(joint, members_, joined_);
     graphs.solver().write_inputs(graphs.pool(), slot, joined_, substeps);
@@ -152,7 +162,7 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
     Arrays arrays;
     const auto read = [&](bool wanted, std::string_view what) {
         return hands_out && wanted && !options.arrays_later ? graphs.solver().readback(graphs.pool(), slot, what)
-                                   : std::vector<std::span<const float>>();
+                                                            : std::vector<std::span<const float>>();
     };
     arrays.positions = read(options.positions, "position");
     arrays.normals = read(options.normals, "normal");

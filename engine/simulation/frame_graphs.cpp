@@ -45,7 +45,8 @@ FrameContents FrameGraphs::contents(bool simulates, bool hands_out, bool first) 
 std::vector<FrameContents> FrameGraphs::known_contents() const {
     const SceneDescription& scene = joint_->scene;
     const bool closed = joint_->closed_loop(), cuts = !scene.cutters.empty();
-    std::vector<FrameContents> all{contents(false, true, true), contents(true, false), contents(true, true)};
+    std::vector<FrameContents> all{contents(false, true, true), contents(true, false)};
+    if (!in_part()) all.push_back(contents(true, true));  // a closed loop only describes it
     if (closed) all.push_back(contents(false, true));
     if (scene.comes_apart())
         for (FrameContents searched : std::vector(all)) {
@@ -55,6 +56,10 @@ std::vector<FrameContents> FrameGraphs::known_contents() const {
         }
     for (const StateSet set : {StateSet::companion, StateSet::disturbed})
         if (has_set(*joint_, set)) all.push_back({.set = set, .simulates = true});
+    // What is submitted has the constants of a model that was made for its substeps.
+    if (in_part())
+        for (FrameContents& contents : all)
+            if (contents.simulates) contents.substeps = scene.solver.substeps;
     return all;
 }
 
@@ -115,8 +120,8 @@ void FrameGraphs::add_hand_out(graph::Graph& graph) {
 void FrameGraphs::note_skipped(graph::Graph& graph, const FrameContents& contents) const {
     const SceneDescription& scene = joint_->scene;
     if (!contents.cuts)
-        graph.skip("cut search", scene.cutters.empty() ? "no cutter in the scene"
-                                                       : "no cutter is active in this kind of frame");
+        graph.skip("cut search",
+                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
     if (!contents.tears)
         graph.skip("tear search",
                    scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");

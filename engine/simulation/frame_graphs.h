@@ -34,7 +34,7 @@ struct FrameOptions : PictureOptions {
 struct FrameContents {
     StateSet set = StateSet::run;
     bool simulates = false;
-    std::uint32_t substeps = 0;  ///< 0: those of the scene
+    std::uint32_t substeps = 0;        ///< 0: those of the scene
     bool cuts = false, tears = false;  ///< they are searched for
     bool hands_out = false;
     bool counts = false;  ///< the statistics

@@ -17,10 +17,7 @@ bool is_any(const List& list) {
 
 FrameServer::FrameServer(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
                          const FrameOptions& options, const std::vector<RunListener>& listeners)
-    : graphs_(device, members, options),
-      failures_(members.size()),
-      waiting_(members.size()),
-      slots_(device) {
+    : graphs_(device, members, options), failures_(members.size()), waiting_(members.size()), slots_(device) {
     for (std::size_t k = 0; k < members.size(); ++k)
         runs_.push_back(std::make_unique<MemberRun>(*members[k], listeners.empty() ? RunListener{} : listeners[k]));
 }
@@ -74,8 +71,7 @@ void FrameServer::take_jobs() {
 
 /// Returns those that wait for the same as most do.
 Flight FrameServer::largest_flight() {
-    using Alike =
-        std::tuple<FrameContents, std::optional<StateStep>, std::optional<StateStep>, bool, std::uint32_t>;
+    using Alike = std::tuple<FrameContents, std::optional<StateStep>, std::optional<StateStep>, bool, std::uint32_t>;
     std::map<Alike, std::vector<std::size_t>> groups;
     for (std::size_t member = 0; member < waiting_.size(); ++member) {
         if (!waiting_[member]) continue;
@@ -111,8 +107,7 @@ void FrameServer::serve() {
             break;
         }
     }
-    for (std::size_t member = 0; member < runs_.size(); ++member)
-        guarded(member, [&] { runs_[member]->conclude(); });
+    for (std::size_t member = 0; member < runs_.size(); ++member) guarded(member, [&] { runs_[member]->conclude(); });
 }
 
 /// Hands out the frame before while a frame is simulated, and waits for that.

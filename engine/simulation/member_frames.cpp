@@ -89,9 +89,8 @@ std::vector<std::vector<std::size_t>> MemberFrames::groups_of(const vulkan::Devi
     std::vector<std::vector<std::size_t>> groups;
     for (const auto& [method, numbers] : by_method) {
         const bool closed = members_[numbers.front()]->model.closed_loop();
-        const bool together =
-            share && (!closed || numbers.size() == 1 ||
-                      fit_together(device, models_of(members_, numbers), options_.kernels));
+        const bool together = share && (!closed || numbers.size() == 1 ||
+                                        fit_together(device, models_of(members_, numbers), options_.kernels));
         if (together)
             groups.push_back(numbers);
         else
@@ -291,9 +290,8 @@ void MemberFrames::show(std::size_t number, const SimulationState& state) {
         for (std::size_t cloth = 0; cloth < each; ++cloth) {
             const std::vector<std::byte>& bytes =
                 state.at(field_part(server.graphs().member(seat.place).cloths[cloth], lasting_fields[k]));
-            std::memcpy(
-                const_cast<float*>(read_back(server, seat.place * each + cloth, lasting_arrays[k]).data()),
-                bytes.data(), bytes.size());
+            std::memcpy(const_cast<float*>(read_back(server, seat.place * each + cloth, lasting_arrays[k]).data()),
+                        bytes.data(), bytes.size());
         }
 }
 

@@ -83,11 +83,11 @@ class MemberFrames {
     Members& members_;
     MemberFrameOptions options_;
     std::vector<Group> groups_;
-    std::vector<Seat> seats_;  ///< by member
+    std::vector<Seat> seats_;                                     ///< by member
     std::vector<Arrays> arrays_;                                  ///< by member; empty where they last
     std::vector<SimulationState> starts_;                         ///< by member; those of members alone
     std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
-    std::vector<char> over_;  ///< by member: it gave up, and stays where it was
+    std::vector<char> over_;                                      ///< by member: it gave up, and stays where it was
     std::function<void()> meanwhile_;
     mutable std::map<Place, std::vector<float>> gathered_;  ///< arrays of all members that do not lie evenly
 };

@@ -42,7 +42,7 @@ std::optional<Job> MemberRun::next_job() {
                 continue;
             }
             if (work->attempt > 0 && stopped()) {
-                pilot_->abandon();
+                pilot_->abandon(*work);
                 withheld_.clear();
                 begun_ = false;
                 over_ = forgets_ = true;
@@ -77,7 +77,9 @@ std::optional<Job> MemberRun::next_job() {
 }
 
 std::optional<Job> MemberRun::first_job() {
-    Job job{.work = {.substeps = pilot_->state_substeps(), .hands_out = true}, .wanted = request_.wanted(0), .searches = searched(0)};
+    Job job{.work = {.substeps = pilot_->state_substeps(), .hands_out = true},
+            .wanted = request_.wanted(0),
+            .searches = searched(0)};
     if (job.searches) job.until = Job::Until::delivered;
     ++next_frame_;
     ++undelivered_;

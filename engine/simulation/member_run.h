@@ -86,12 +86,12 @@ class MemberRun {
     std::optional<SelfContactReport> self_contact_;
     FrameRequest request_;
     std::uint32_t next_frame_ = 0;
-    bool begun_ = false;     ///< the pilot is asked for the work of frames that it has begun
-    bool complete_ = true;   ///< nothing is asked for, or all of it is done
-    bool over_ = true;       ///< nothing more is to be asked for
-    bool forgets_ = false;   ///< frames that are withheld and in flight were abandoned
-    int unfinished_ = 0, undelivered_ = 0;  ///< jobs that it waits for, and whose frames were not delivered
-    std::deque<FrameCopy> withheld_;        ///< frames that are simulated and not handed out yet
+    bool begun_ = false;                     ///< the pilot is asked for the work of frames that it has begun
+    bool complete_ = true;                   ///< nothing is asked for, or all of it is done
+    bool over_ = true;                       ///< nothing more is to be asked for
+    bool forgets_ = false;                   ///< frames that are withheld and in flight were abandoned
+    int unfinished_ = 0, undelivered_ = 0;   ///< jobs that it waits for, and whose frames were not delivered
+    std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
     std::deque<FinishedFrame> passed_over_;  ///< frames of a closed loop that are not wanted and not told of yet
 };
 

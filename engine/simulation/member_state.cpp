@@ -22,7 +22,8 @@ constexpr std::string_view field_prefix = "field/";
 
 std::string cuts_part(const ClothModel& cloth) { return "cuts/" + cloth.name; }
 std::string borne_part() {
-    return std::string(field_prefix) + resource_name(contact_fields()[static_cast<std::size_t>(ContactField::borne)], StateSet::run);
+    return std::string(field_prefix) +
+           resource_name(contact_fields()[static_cast<std::size_t>(ContactField::borne)], StateSet::run);
 }
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("the saved state is not of this scene: " + why); }
@@ -49,8 +50,7 @@ void for_each_field(const FrameGraphs& graphs, std::size_t member, StateSet set,
     const std::size_t each = graphs.cloths_each();
     for (std::size_t cloth = 0; cloth < each; ++cloth)
         for (const FieldRow& row : cloth_fields())
-            visit(cloth, row,
-                  std::string(field_prefix) + resource_name(graphs.member(member).cloths[cloth], row, set));
+            visit(cloth, row, std::string(field_prefix) + resource_name(graphs.member(member).cloths[cloth], row, set));
 }
 
 void save_shared(const FrameGraphs& graphs, std::size_t member, SimulationState& state) {
@@ -193,8 +193,7 @@ void put_starts(FrameServer& server, std::span<const std::size_t> members) {
     for (const std::size_t member : members)
         for (std::size_t cloth = 0; cloth < each; ++cloth) starts[member * each + cloth] = nullptr;
     for_each_set(graphs.joint(), [&](StateSet set) { graphs.solver().upload_cloths(graphs.pool(), starts, set); });
-    if (graphs.joint().self_contact)
-        put_borne(graphs, members, std::vector<std::vector<std::byte>>(members.size()));
+    if (graphs.joint().self_contact) put_borne(graphs, members, std::vector<std::vector<std::byte>>(members.size()));
 }
 
 }  // namespace drape

@@ -202,8 +202,8 @@ struct Simulation::Parts {
     FrameGraphs& graphs() {
         if (is_alone()) return server->graphs();
         if (!own_graphs)
-            own_graphs = std::make_unique<FrameGraphs>(device.parts_->device, std::vector<const SimulationModel*>{&model},
-                                                       asked);
+            own_graphs = std::make_unique<FrameGraphs>(device.parts_->device,
+                                                       std::vector<const SimulationModel*>{&model}, asked);
         return *own_graphs;
     }
 
@@ -272,7 +272,8 @@ std::vector<Simulation> Simulation::together(const std::vector<SceneDescription>
     return all;
 }
 
-std::vector<RequestEnd> Simulation::run_together(std::span<Simulation> simulations, std::span<const FrameRequest> requests) {
+std::vector<RequestEnd> Simulation::run_together(std::span<Simulation> simulations,
+                                                 std::span<const FrameRequest> requests) {
     FrameServer& server = *simulations.front().parts_->server;
     if (simulations.size() != server.size() || requests.size() != server.size())
         throw Error("all simulations that were made together go on together");

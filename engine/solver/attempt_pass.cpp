@@ -151,9 +151,9 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, StateStep
                    : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
         const graph::Handle from = back ? kept : here;
         const auto to = std::make_shared<graph::Handle>(back ? here : kept);
-        const std::string name = back                        ? "restore contact"
+        const std::string name = back                      ? "restore contact"
                                  : step == StateStep::keep ? "keep contact"
-                                                             : "disturb contact";
+                                                           : "disturb contact";
         graph.add_pass(
             {name, "judge", live.name + ": " + name},
             [&](graph::PassSetup& setup) {

@@ -10,8 +10,8 @@
 
 #include "cloth/cloth_state.h"
 #include "cloth/contact_state.h"
-#include "cloth/state_sets.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/state_sets.h"
 #include "graph/executor.h"
 #include "solver/pipelines.h"
 

@@ -75,7 +75,8 @@ Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) 
             for (const std::span<const float> cloth : frame.positions)
                 all.insert(all.end(), cloth.begin(), cloth.end());
         });
-    seen.most_cells = count_of(server.graphs().planned(server.graphs().contents(true, false)).graph, ContactField::cells);
+    seen.most_cells =
+        count_of(server.graphs().planned(server.graphs().contents(true, false)).graph, ContactField::cells);
     return seen;
 }
 

@@ -220,9 +220,9 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
         EXPECT_TRUE(test::same_bits(with[frame], without[frame], where)) << frame << ": " << where;
     EXPECT_FALSE(timed.empty());
     for (const std::string& name : timed) EXPECT_EQ(name.find("cut"), std::string::npos) << name;
-    const PlannedGraph& idle = idle_server.graphs().planned(idle_server.graphs().contents(true, true));
-    for (const graph::PlannedPass& pass : idle.plan.passes)
-        EXPECT_NE(idle.graph.passes()[pass.pass].stage, "cut");
+    const PlannedGraph& searched_not = idle_server.graphs().planned(idle_server.graphs().contents(true, true));
+    for (const graph::PlannedPass& pass : searched_not.plan.passes)
+        EXPECT_NE(searched_not.graph.passes()[pass.pass].stage, "cut");
     EXPECT_FALSE(idle_server.graphs().pool().has("sheet/spring shares")) << "the image comes with the first cut";
     EXPECT_FALSE(plain_server.graphs().pool().has("cutters"));
 }

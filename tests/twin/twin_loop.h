@@ -1,5 +1,5 @@
-// The twin of a closed loop: the pilot of the device (control/auto_pilot.h) says what the twins simulate. The scene must
-// have no cutters and nothing that tears.
+// The twin of a closed loop: the pilot of the device (control/auto_pilot.h) says what the twins simulate. The scene
+// must have no cutters and nothing that tears.
 #pragma once
 
 #include <deque>

@@ -145,7 +145,7 @@ class Simulation {
     /// Computes what is asked of each of the simulations that were made together, once. Throws DeviceError, after
     /// which all are over.
     static std::vector<RequestEnd> run_together(std::span<Simulation> simulations,
-                                                        std::span<const FrameRequest> requests);
+                                                std::span<const FrameRequest> requests);
 
     /// Computes the next frame, the first time frame 0, for `frame`; returns false and does nothing after the scene's
     /// last. Throws Diverged, ToleranceMissed or DeviceError, after which this simulation is over.
