@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
@@ -58,14 +59,6 @@ struct RunRequest {
     std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish what is in flight and end
     std::function<void()> saving;  ///< told before a checkpoint is written
 
-    /// The run's frames are those of a member of an ensemble of the same scene on this device. No format draws, and
-    /// there are no checkpoints.
-    struct Shared {
-        Device device;
-        EnsembleMember member;
-    };
-    std::optional<Shared> shared;
-
     bool draws() const;    ///< some format needs pictures
     bool details() const;  ///< some format needs velocities and contacts
 };
@@ -90,6 +83,18 @@ struct RunSummary {
 /// frames before it, when the simulation diverged or missed its tolerance. Whether it did is seen at the frames that
 /// are written.
 RunSummary run_scene(const RunRequest& request);
+
+/// How one of several runs ended.
+struct RunEnd {
+    std::size_t number = 0;           ///< of its request
+    bool complete = false;            ///< false: it was stopped, or it failed
+    std::exception_ptr failure = {};  ///< what run_scene would have thrown
+};
+/// Makes the runs of scenes of one shape, for which method `auto` chooses the same, together on the first one's device:
+/// they share dispatches. No format draws, and there are no checkpoints. Each gets the bytes that run_scene makes of
+/// it. Tells of each run that ended. Throws DeviceError where the device fails, or cannot take them together; the runs
+/// that were not told of then have not ended.
+void run_scenes_together(std::span<const RunRequest> requests, const std::function<void(const RunEnd&)>& ended);
 
 /// Returns the scene as it is asked for. Throws SceneFailure.
 SceneDescription asked_scene(const SceneRequest& request);

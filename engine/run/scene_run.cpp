@@ -44,19 +44,20 @@ CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, 
 SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene, const SimulationModel& model,
                     const RunOptions& wanted) {
     SceneRun run{scene, {}, {}};
-    FrameLoopOptions options;
+    FrameOptions options;
+    RunListener listener;
     options.draw = false;
     options.positions = wanted.positions;
-    options.statistics = wanted.frame != nullptr;
+    options.statistics = options.judges = wanted.frame != nullptr;
     options.timestamps = graph::TimestampMode::none;
-    options.keep_promises = false;  // frames that break them are judged
-    options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+    listener.keep_promises = false;  // frames that break them are judged
+    listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };
     for (std::size_t cloth = 0; cloth < model.cloths.size() && scene.comes_apart(); ++cloth) {
         run.cuts.push_back(cut_record(0, cloth, 0, CutTopology(model.cloths[cloth])));
     }
-    FrameLoop loop(device, model, options);
+    FrameServer server(device, model, options, listener);
     const auto keep = [&](const FinishedFrame& frame) {
         if (wanted.frame) wanted.frame(frame);
         if (!wanted.positions) return;
@@ -66,7 +67,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
             std::memcpy(texels.data(), values.data(), values.size_bytes());
         }
     };
-    loop.run(
+    server.run(
         wanted.last, [](std::uint32_t) { return true; }, keep, wanted.stop);
     return run;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cloth/frame_steps.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 
 namespace drape::verify {
 
@@ -45,7 +45,7 @@ struct RunOptions {
     std::function<bool()> stop = {};                       ///< asked before each frame
 };
 
-/// Runs a scene through the frame loop, without pictures; frames that fail are kept. `model` is the scene's, or what
+/// Runs a scene through a frame server, without pictures; frames that fail are kept. `model` is the scene's, or what
 /// was made of it. Throws VulkanError.
 SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene, const SimulationModel& model,
                     const RunOptions& options);

@@ -11,7 +11,7 @@
 #include "picture/pictures.h"
 #include "simulation/contact_report.h"
 #include "simulation/device_parts.h"
-#include "simulation/member_runs.h"
+#include "simulation/member_frames.h"
 
 namespace drape {
 
@@ -70,21 +70,17 @@ struct Ensemble::Parts {
           members(made(scenes, wanted.controls, ModelOptions{.device = device_kind(given.info())},
                        [&](Members& two) {
                            if (drape::sharing_obstacle(two.front()->model)) return;
-                           const auto check = two.front()->model.closed_loop() ? check_lane_room : check_room;
-                           check(given.parts_->device, two, scenes.size(), run_options());
+                           MemberFrames::check_room(given.parts_->device, two, scenes.size(), frame_options());
                        })),
           obstacle(obstacle_of(members)) {
         const bool acts = wanted.controls.wind || wanted.controls.pins || wanted.controls.colliders;
         if (acts && members.front()->model.closed_loop())
             throw Error(
                 "method auto does frames again, with those before them, and cannot be given actions: name a method");
-        const auto make_runs = obstacle                               ? run_apart
-                               : members.front()->model.closed_loop() ? run_in_lanes
-                                                                      : run_together;
-        runs = make_runs(given.parts_->device, members, run_options());
+        frames = std::make_unique<MemberFrames>(given.parts_->device, members, frame_options(), !obstacle);
     }
 
-    MemberRunOptions run_options() const { return {options.normals, options.kernels}; }
+    MemberFrameOptions frame_options() const { return {options.normals, options.kernels}; }
     void check_numbers(std::span<const std::size_t> numbers) const {
         for (const std::size_t number : numbers)
             if (number >= members.size())
@@ -95,7 +91,7 @@ struct Ensemble::Parts {
     EnsembleOptions options;
     Members members;
     std::optional<std::string> obstacle;
-    std::unique_ptr<MemberRuns> runs;
+    std::unique_ptr<MemberFrames> frames;
     /// Those of the members that were drawn last. Each has the images of a picture.
     std::map<std::size_t, std::unique_ptr<Pictures>> pictures;
     std::vector<std::uint8_t> picture;
@@ -109,8 +105,8 @@ Ensemble::Ensemble(Ensemble&&) noexcept = default;
 std::size_t Ensemble::size() const { return parts_->members.size(); }
 const SceneDescription& Ensemble::scene(std::size_t member) const { return parts_->members.at(member)->model.scene; }
 const std::optional<std::string>& Ensemble::sharing_obstacle() const { return parts_->obstacle; }
-std::size_t Ensemble::pass_count() const { return parts_->runs->pass_count(); }
-double Ensemble::device_milliseconds() const { return parts_->runs->device_milliseconds(); }
+std::size_t Ensemble::pass_count() const { return parts_->frames->pass_count(); }
+double Ensemble::device_milliseconds() const { return parts_->frames->device_milliseconds(); }
 std::uint32_t Ensemble::frame(std::size_t member) const { return parts_->members.at(member)->frame; }
 const std::optional<FrameFailure>& Ensemble::failure(std::size_t member) const {
     parts_->members.at(member)->judge();
@@ -131,35 +127,36 @@ void Ensemble::step(const EnsembleActions& actions) {
     check_actions(actions, parts_->options.controls, members.front()->model, members.size());
     for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
     // The statistics of the frame before are there, and what moves cloths until this one's end is known.
-    parts_->runs->step([&] {
+    parts_->frames->step([&] {
         for (const auto& member : members) {
             member->judge();
             member->watch->extend(member->frame + 1);
         }
     });
     for (const auto& member : members) member->judged = false;
-    parts_->runs->refresh();
+    parts_->frames->refresh();
 }
 
 void Ensemble::reset(std::span<const std::size_t> members) {
     parts_->check_numbers(members);
     for (const std::size_t number : members) parts_->members[number]->begin_anew();
-    parts_->runs->reset(members);
-    parts_->runs->look();
-    parts_->runs->refresh();
+    parts_->frames->reset(members);
+    parts_->frames->refresh();
 }
 
-MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::position); }
-MemberArray Ensemble::velocities(std::size_t cloth) const { return parts_->runs->array(cloth, MemberValue::velocity); }
+MemberArray Ensemble::positions(std::size_t cloth) const { return parts_->frames->array(cloth, MemberValue::position); }
+MemberArray Ensemble::velocities(std::size_t cloth) const {
+    return parts_->frames->array(cloth, MemberValue::velocity);
+}
 MemberArray Ensemble::normals(std::size_t cloth) const {
     if (!parts_->options.normals) throw Error("no normals: the ensemble was made without");
-    return parts_->runs->array(cloth, MemberValue::normal);
+    return parts_->frames->array(cloth, MemberValue::normal);
 }
 
 SimulationState Ensemble::save(std::size_t number) const {
     Member& member = *parts_->members.at(number);
     member.judge();
-    SimulationState state = parts_->runs->save(number);
+    SimulationState state = parts_->frames->save(number);
     ByteWriter writer;
     MemberMotion motion(member.model);
     transfer(writer, member, motion);  // a writer changes nothing
@@ -185,14 +182,13 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         if (!transfer(reader, progress.back(), motions.back()) || reader.left() > 0)
             throw Error("the saved state is not of this scene: its part 'member' is of something else");
     }
-    parts_->runs->restore(members, states);
+    parts_->frames->restore(members, states);
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = *parts_->members[members[k]];
         static_cast<MemberProgress&>(member) = std::move(progress[k]);
         motions[k].put_into(member.model);
     }
-    parts_->runs->look();
-    parts_->runs->refresh();
+    parts_->frames->refresh();
 }
 
 std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {

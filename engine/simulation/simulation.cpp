@@ -8,15 +8,16 @@
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/members.h"
 #include "cloth/together.h"
 #include "control/passage_watch.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
 #include "simulation/device_parts.h"
-#include "simulation/ensemble_run.h"
 #include "simulation/frame_checks.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
+#include "simulation/member_state.h"
 #include "simulation/scene_checks.h"
 #include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
@@ -78,28 +79,29 @@ namespace {
 constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, graph::TimestampMode::stages,
                                                     graph::TimestampMode::passes};
 
-FrameLoopOptions loop_options(const SceneDescription& scene, const SimulationOptions& wanted) {
-    FrameLoopOptions options;
+FrameOptions frame_options(const SceneDescription& scene, const SimulationOptions& wanted) {
+    FrameOptions options;
     options.draw = wanted.draw;
     options.view = wanted.view;
     options.positions = wanted.positions;
     options.normals = wanted.normals;
     options.velocities = wanted.velocities;
-    options.statistics = wanted.statistics || wanted.velocities;
-    options.keep_promises = wanted.keep_promises;
-    options.on_attempt = wanted.on_attempt;
+    options.statistics = options.judges = wanted.statistics || wanted.velocities;
     options.kernels = wanted.kernels;
     options.timestamps = timestamp_modes[static_cast<std::size_t>(wanted.timings)];
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
-    if (wanted.on_cut)
-        options.on_cut = [on_cut = wanted.on_cut](const CutEvent& event, const CutTopology& topology) {
-            const CutCounts& counts = event.counts;
-            on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.torn, counts.pieces,
-                    counts.crumbs, topology.whole_triangles()});
-        };
     return options;
+}
+
+CutListener cut_listener(const std::function<void(const Cut&)>& on_cut) {
+    if (!on_cut) return {};
+    return [on_cut](const CutEvent& event, const CutTopology& topology) {
+        const CutCounts& counts = event.counts;
+        on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.torn, counts.pieces, counts.crumbs,
+                topology.whole_triangles()});
+    };
 }
 
 constexpr const char* watch_part = "watch";
@@ -129,24 +131,41 @@ ByteReader checked_part(const SimulationState& state, const char* name, const Si
 struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
         : device(given),
-          member(options.member),
-          keep_promises(options.keep_promises),
-          model(scene, {.skip = options.skip, .device = device_kind(given.info())}),
+          wanted(options),
+          model(checked_scene(scene), {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
           passages(model),
-          asked(taking_part(judging(loop_options(scene, options)))),
-          loop(given.parts_->device, model, given.parts_->drawing && asked.draw ? beside_pictures() : asked) {
-        if (given.parts_->drawing && asked.draw)
-            pictures = std::make_unique<Pictures>(given.parts_->drawing->device, model, asked);
+          asked(frame_options(scene, options)) {}
+
+    /// Makes it the only member of a server, and draws pictures where they have a device of their own.
+    void serve_alone() {
+        Device::Parts* const drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
+        server = std::make_shared<FrameServer>(device.parts_->device, model, drawing ? beside_pictures() : asked,
+                                               listener(drawing != nullptr));
+        if (drawing) pictures = std::make_unique<Pictures>(drawing->device, model, asked);
     }
 
-    FrameLoopOptions judging(FrameLoopOptions options) {
-        if (options.statistics) options.on_passed_over = [this](const FinishedFrame& frame) { judge(frame); };
-        return options;
+    RunListener listener(bool draws_beside) {
+        RunListener all{.keep_promises = wanted.keep_promises,
+                        .on_cut = cut_listener(wanted.on_cut),
+                        .on_attempt = wanted.on_attempt};
+        if (asked.judges) all.on_passed_over = [this](const FinishedFrame& frame) { judge(frame); };
+        if (draws_beside)
+            all.on_cut = [this, own = all.on_cut](const CutEvent& event, const CutTopology& topology) {
+                pictures->follow(topologies());
+                if (own) own(event, topology);
+            };
+        return all;
     }
 
-    FrameLoopOptions taking_part(FrameLoopOptions options) const {
-        if (member) member->run->parts_->join(member->number, options);
+    /// Returns the options of the server whose frames `pictures` draws.
+    FrameOptions beside_pictures() {
+        FrameOptions options = asked;
+        options.draw = false;
+        options.draws_beside = options.positions = true;
+        options.meanwhile = [this] {
+            if (give) pictures->go_on(give);
+        };
         return options;
     }
 
@@ -157,25 +176,35 @@ struct Simulation::Parts {
             passages.look(frame.frame, substeps > 0 ? substeps : model.scene.solver.substeps, frame.statistics);
         std::optional<FrameFailure> found = frame_failure(model, watch, frame);
         if (!found) return found;
-        if (keep_promises) raise(*found);
+        if (wanted.keep_promises) raise(*found);
         const auto diverged = [](const FrameFailure& each) { return each.kind == FrameFailure::Kind::not_finite; };
         if (!failure || (diverged(*found) && !diverged(*failure))) failure = found;
         return diverged(*found) ? failure : found;
     }
 
-    /// Returns the options of the loop whose frames `pictures` draws.
-    FrameLoopOptions beside_pictures() {
-        FrameLoopOptions options = asked;
-        options.draw = false;
-        options.draws_beside = options.positions = true;
-        options.meanwhile = [this] {
-            if (give) pictures->go_on(give);
+    /// Returns a request whose frames are judged before they go to `take`.
+    FrameRequest judged(const FrameRequest& request, const std::function<void(const FinishedFrame&)>& take) {
+        FrameRequest all = request;
+        all.finished = [this, take](const FinishedFrame& frame) {
+            const auto found = judge(frame);
+            if (!found) return take(frame);
+            FinishedFrame failed = frame;
+            failed.failure = found;
+            take(failed);
         };
-        options.on_cut = [this](const CutEvent& event, const CutTopology& topology) {
-            pictures->follow(loop.topologies());
-            if (asked.on_cut) asked.on_cut(event, topology);
-        };
-        return options;
+        return all;
+    }
+
+    bool is_alone() const { return server->size() == 1; }
+    MemberRun& run() { return server->member(number); }
+    std::vector<CutTopology>& topologies() { return server->graphs().solver().topologies(); }
+    /// Returns the graphs of this scene alone.
+    FrameGraphs& graphs() {
+        if (is_alone()) return server->graphs();
+        if (!own_graphs)
+            own_graphs = std::make_unique<FrameGraphs>(device.parts_->device,
+                                                       std::vector<const SimulationModel*>{&model}, asked);
+        return *own_graphs;
     }
 
     struct Planned {
@@ -183,35 +212,82 @@ struct Simulation::Parts {
         const graph::Plan& plan;
     };
     /// Returns what a frame takes that is handed out: one graph, or two, one per device.
-    std::vector<Planned> output() const {
-        const FrameKind kind =
-            model.scene.tears() ? FrameKind::simulate_and_output_cut : FrameKind::simulate_and_output;
-        std::vector<Planned> all{{loop.graph(kind), loop.plan(kind)}};
+    std::vector<Planned> output() {
+        FrameContents contents = graphs().contents(true, true);
+        contents.tears = model.scene.tears();
+        contents.cuts = contents.tears && !model.scene.cutters.empty();
+        const PlannedGraph& own = graphs().planned(contents);
+        std::vector<Planned> all{{own.graph, own.plan}};
         if (pictures) all.push_back({pictures->graph(), pictures->plan()});
         return all;
     }
 
     Device device;
-    std::optional<EnsembleMember> member;  ///< outlives the loop, whose frames it shares
-    bool keep_promises;
+    SimulationOptions wanted;
     SimulationModel model;
     Watch watch;
     std::optional<FrameFailure> failure;  ///< the first of any frame, handed out or not
     PassageWatch passages;
-    FrameLoopOptions asked;
-    FrameLoop loop;
-    std::unique_ptr<Pictures> pictures;  ///< draws pictures where they have a device of their own
-    Pictures::Finished give;             ///< gives to the caller, while one runs the simulation
+    FrameOptions asked;
+    std::shared_ptr<FrameServer> server;
+    std::size_t number = 0;                   ///< among the members of the server
+    std::unique_ptr<FrameGraphs> own_graphs;  ///< describes the scene alone, where the server has more members
+    std::unique_ptr<Pictures> pictures;       ///< draws pictures where they have a device of their own
+    Pictures::Finished give;                  ///< gives to the caller, while one runs the simulation
     FrameCopy kept;
 };
 
 Simulation::Simulation(const SceneDescription& scene, const SimulationOptions& options, const Device& device)
-    : parts_(std::make_unique<Parts>(checked_scene(scene), options, device)) {}
+    : Simulation(std::make_unique<Parts>(scene, options, device)) {
+    parts_->serve_alone();
+}
+Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
+std::vector<Simulation> Simulation::together(const std::vector<SceneDescription>& scenes,
+                                             const std::vector<SimulationOptions>& options, const Device& device) {
+    std::vector<Simulation> all;
+    std::vector<const SimulationModel*> models;
+    std::vector<RunListener> listeners;
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        if (const auto found = shape_difference(scenes.front(), scenes[k]))
+            throw Error("scenes of unlike shape cannot go on together: " + *found);
+        Parts& parts = *all.emplace_back(Simulation(std::make_unique<Parts>(scenes[k], options[k], device))).parts_;
+        if (const auto obstacle = sharing_obstacle(parts.model))
+            throw Error("these scenes cannot go on together: " + *obstacle);
+        models.push_back(&parts.model);
+        if (parts.model.scene.solver.method != models.front()->scene.solver.method)
+            throw Error("scenes for which method auto chooses unlike methods cannot go on together");
+        parts.number = k;
+        listeners.push_back(parts.listener(false));
+    }
+    FrameOptions asked = all.front().parts_->asked;
+    asked.draw = false;
+    asked.timestamps = graph::TimestampMode::none;
+    const auto server = std::make_shared<FrameServer>(device.parts_->device, models, asked, listeners);
+    check_room(device.parts_->device, server->graphs(), scenes.size());
+    server->graphs().allocate();
+    for (Simulation& each : all) each.parts_->server = server;
+    return all;
+}
+
+std::vector<RequestEnd> Simulation::run_together(std::span<Simulation> simulations,
+                                                 std::span<const FrameRequest> requests) {
+    FrameServer& server = *simulations.front().parts_->server;
+    if (simulations.size() != server.size() || requests.size() != server.size())
+        throw Error("all simulations that were made together go on together");
+    for (std::size_t k = 0; k < simulations.size(); ++k)
+        server.ask(k, simulations[k].parts_->judged(requests[k], requests[k].finished));
+    server.serve();
+    std::vector<RequestEnd> ends;
+    for (std::size_t k = 0; k < simulations.size(); ++k)
+        ends.push_back({server.member(k).complete(), server.failure(k)});
+    return ends;
+}
+
 bool Simulation::step() {
-    const std::uint32_t next = parts_->loop.next_frame();
+    const std::uint32_t next = next_frame();
     if (next >= parts_->model.scene.time.frame_count) return false;
     return run(
         next, [](std::uint32_t) { return true; }, [this](const FinishedFrame& frame) { parts_->kept.keep(frame); });
@@ -221,6 +297,7 @@ const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
 
 bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+    if (!parts_->is_alone()) throw Error("all simulations that were made together go on together");
     Pictures* const pictures = parts_->pictures.get();
     bool giving = false;  // a throw is then the caller's own
     const auto give = [&](const FinishedFrame& frame) {
@@ -236,25 +313,19 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
     const auto hand_out = [&](const FinishedFrame& frame) {
         return pictures ? pictures->draw(frame, give) : finished(frame);
     };
-    const auto checked = [&](const FinishedFrame& frame) {
-        const auto failure = parts_->judge(frame);
-        if (!failure) return hand_out(frame);
-        FinishedFrame failed = frame;
-        failed.failure = failure;
-        hand_out(failed);
-    };
     try {
-        const bool complete = parts_->loop.run(last, wanted, checked, stop);
+        parts_->server->ask(0, parts_->judged({last, wanted, finished, stop}, hand_out));
+        parts_->server->serve();
         if (pictures) pictures->flush(give);
-        return complete;
+        return parts_->run().complete();
     } catch (const FrameError&) {  // frames before it are handed out
         if (pictures && !giving) pictures->flush(give);
         throw;
     }
 }
 
-std::uint32_t Simulation::next_frame() const { return parts_->loop.next_frame(); }
-bool Simulation::can_save() const { return parts_->loop.can_save(); }
+std::uint32_t Simulation::next_frame() const { return parts_->run().next_frame(); }
+bool Simulation::can_save() const { return parts_->is_alone() && parts_->run().can_save(); }
 
 SimulationState Simulation::save() const {
     if (!can_save())
@@ -262,7 +333,7 @@ SimulationState Simulation::save() const {
             fmt::format("frame {} cannot be saved: method auto has begun a probe, whose frames are kept or done "
                         "again together (can_save)",
                         next_frame() - 1));
-    SimulationState state = parts_->loop.save();
+    SimulationState state = saved_state(*parts_->server, 0);
     state[watch_part] = written(parts_->watch);
     state[passages_part] = written(parts_->passages);
     return state;
@@ -271,23 +342,27 @@ SimulationState Simulation::save() const {
 void Simulation::restore(const SimulationState& state) {
     ByteReader watch = checked_part<Watch>(state, watch_part, parts_->model);
     ByteReader passages = checked_part<PassageWatch>(state, passages_part, parts_->model);
-    parts_->loop.restore(state);
+    if (!parts_->is_alone()) throw Error("simulations that were made together cannot be restored");
+    const std::size_t only = 0;
+    restore_states(*parts_->server, std::span(&only, 1), std::span(&state, 1));
     parts_->watch.transfer(watch);
     parts_->passages.transfer(passages);
-    if (parts_->pictures) parts_->pictures->follow(parts_->loop.topologies());
+    if (parts_->pictures) parts_->pictures->follow(parts_->topologies());
 }
 
 const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
 
 std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
-    return parts_->loop.whole_triangles(cloth);
+    if (!parts_->is_alone()) return CutTopology(parts_->model.cloths[cloth]).whole_triangles();
+    return parts_->topologies()[cloth].whole_triangles();
 }
 
 SimulationFacts Simulation::facts() const {
     const SimulationModel& model = parts_->model;
-    const graph::Plan& simulate = parts_->loop.plan(FrameKind::simulate);
+    FrameGraphs& graphs = parts_->graphs();
+    const graph::Plan& simulate = graphs.planned(graphs.contents(true, false)).plan;
     SimulationFacts facts{.method = std::string(model.method().name),
-                          .kernels = used_kernels(model, parts_->loop.kernels()).text(),
+                          .kernels = used_kernels(model, graphs.solver().kernels()).text(),
                           .asked_method = std::string(named(model.asked_method).name),
                           .choice_reason = model.choice.reason,
                           .tolerance = model.asked_tolerance,
@@ -311,7 +386,7 @@ SimulationFacts Simulation::facts() const {
     return facts;
 }
 
-std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->loop.self_contact(); }
+std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->run().self_contact(); }
 
 RunVerdict Simulation::verdict() const {
     return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings()};

@@ -138,22 +138,22 @@ graph::Handle position_in(graph::Graph& graph, const ClothState& state, StateSet
 
 }  // namespace
 
-void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptStep step) {
-    const bool back = step == AttemptStep::restore;
-    if (!back && step != AttemptStep::keep && step != AttemptStep::disturb) return;
+void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, StateStep step) {
+    const bool back = step == StateStep::restore;
+    if (!back && step != StateStep::keep && step != StateStep::disturb) return;
     for (const ContactRow& row : contact_fields()) {
         if (row.life != FieldLife::state) continue;
         const graph::BufferDeclaration live = graph.resources()[contact[row.field].resource].buffer;
-        const bool begins = step == AttemptStep::disturb;
+        const bool begins = step == StateStep::disturb;
         const graph::Handle here = begins ? graph.buffer(in_set(live, StateSet::companion)) : contact[row.field];
         const graph::Handle kept =
             begins ? graph.buffer(in_set(live, StateSet::disturbed))
                    : graph.buffer({live.name + " kept", live.byte_count, graph::Lifetime::persistent});
         const graph::Handle from = back ? kept : here;
         const auto to = std::make_shared<graph::Handle>(back ? here : kept);
-        const std::string name = back                        ? "restore contact"
-                                 : step == AttemptStep::keep ? "keep contact"
-                                                             : "disturb contact";
+        const std::string name = back                      ? "restore contact"
+                                 : step == StateStep::keep ? "keep contact"
+                                                           : "disturb contact";
         graph.add_pass(
             {name, "judge", live.name + ": " + name},
             [&](graph::PassSetup& setup) {
@@ -172,25 +172,25 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, AttemptSt
 std::string difference_readback_name(const std::string& state) { return state + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
-                 const SimulationModel& run, AttemptStep step, std::size_t first_change) {
+                 const SimulationModel& run, StateStep step, std::size_t first_change) {
     switch (step) {
-        case AttemptStep::keep:
+        case StateStep::keep:
             return add_state_copies(graph, pipelines, state, false);
-        case AttemptStep::restore:
+        case StateStep::restore:
             return add_state_copies(graph, pipelines, state, true);
-        case AttemptStep::change_substep:
+        case StateStep::change_substep:
             return add_change_substep(graph, pipelines, state, inputs, first_change);
-        case AttemptStep::remember:
+        case StateStep::remember:
             return add_remember(graph, pipelines, state);
-        case AttemptStep::compare:
+        case StateStep::compare:
             return add_compare(graph, pipelines, state, state[Field::position],
                                copy_of(graph, state, Field::position, coarse_run));
-        case AttemptStep::compare_companion:
+        case StateStep::compare_companion:
             return add_compare(graph, pipelines, state, state[Field::position],
                                position_in(graph, state, StateSet::companion));
-        case AttemptStep::disturb:
+        case StateStep::disturb:
             return add_disturb(graph, pipelines, state, run);
-        case AttemptStep::compare_disturbed:
+        case StateStep::compare_disturbed:
             return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
                                position_in(graph, state, StateSet::disturbed));
     }

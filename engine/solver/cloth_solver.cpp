@@ -329,7 +329,7 @@ std::vector<std::span<const float>> ClothSolver::readback(const graph::ResourceP
     return views;
 }
 
-void ClothSolver::add_attempt(graph::Graph& graph, AttemptStep step) {
+void ClothSolver::add_attempt(graph::Graph& graph, StateStep step) {
     std::size_t first = 0;
     for_each_dispatch([&](ClothState& state) {
         drape::add_attempt(graph, pipelines_, state, inputs_, *run_, step, first);

@@ -69,7 +69,7 @@ class ClothSolver {
     /// Adds the statistics of every cloth (solver/statistics_pass.h), to be read by `statistics`.
     void add_statistics(graph::Graph& graph);
     /// Adds a pass that a closed loop needs around the attempts at a frame (solver/attempt_pass.h).
-    void add_attempt(graph::Graph& graph, AttemptStep step);
+    void add_attempt(graph::Graph& graph, StateStep step);
     /// Returns what the slot's last frame read back of each cloth, particle by particle.
     std::vector<std::span<const float>> readback(const graph::ResourcePool& pool, std::uint32_t slot,
                                                  std::string_view what) const;

@@ -11,6 +11,7 @@
 #include "cloth/cloth_state.h"
 #include "cloth/contact_state.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/state_sets.h"
 #include "graph/executor.h"
 #include "solver/pipelines.h"
 
@@ -88,14 +89,6 @@ struct SceneInputs {
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
     graph::Handle attempt;  ///< closed loops: a SubstepChange per cloth
 };
-
-/// A scene's motion may be simulated more than once on a device, each time in images of its own.
-enum class StateSet : std::uint8_t {
-    run,        ///< what is handed out
-    companion,  ///< with other substeps, from the start on: what it is away tells the error (control/motion_error.h)
-    disturbed,  ///< the companion but for next to nothing, at times: tells chaos from error (control/sensitivity.h)
-};
-inline constexpr std::size_t state_set_count = 3;
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set = StateSet::run);

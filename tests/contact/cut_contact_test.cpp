@@ -10,7 +10,7 @@
 #include "crossing_checker.h"
 #include "drape/scene_reader.h"
 #include "gpu_test.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "support/cut_checks.h"
 
 namespace drape::test {
@@ -54,19 +54,21 @@ struct CutRun {
 CutRun run_of(const SceneDescription& scene) {
     const SimulationModel model(scene);
     CutRun run;
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.positions = true;
-    options.on_cut = [&](const CutEvent& event, const CutTopology&) {
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology&) {
         if (event.counts.triangles > 0 && !run.first_split) run.first_split = event.frame + 1;
         run.split += event.counts.triangles;
     };
-    FrameLoop loop(gpu().device, model, options);
-    const std::size_t before = loop.topologies()[0].whole_triangles().size() / 3;
-    loop.run(
+    FrameServer server(gpu().device, model, options, listener);
+    const std::vector<CutTopology>& topologies = server.graphs().solver().topologies();
+    const std::size_t before = topologies[0].whole_triangles().size() / 3;
+    server.run(
         scene.time.frame_count - 1, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
-            const DrawnCloth cloth = drawn(loop.topologies()[0], frame.positions[0]);
+            const DrawnCloth cloth = drawn(topologies[0], frame.positions[0]);
             std::size_t parts = 0;
             for (const Crossing& each : find_crossings({cloth.mesh}).pairs)
                 ++(cloth.whole[each.triangle[0]] && cloth.whole[each.triangle[1]] ? run.whole_crossings : parts);
@@ -76,8 +78,8 @@ CutRun run_of(const SceneDescription& scene) {
             run.parted_frames += parts > 0 ? 1 : 0;
             if (parts > 0 && !run.first_parted) run.first_parted = frame.frame;
         });
-    run.cells_lost = before - loop.topologies()[0].whole_triangles().size() / 3;
-    run.told = loop.self_contact();
+    run.cells_lost = before - topologies[0].whole_triangles().size() / 3;
+    run.told = server.member(0).self_contact();
     return run;
 }
 

@@ -9,7 +9,7 @@
 #include "cloth/self_contact.h"
 #include "device_run.h"
 #include "drape/scene_reader.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "small_scene.h"
 #include "support/twin_fields.h"
 #include "support/twin_with_cuts.h"
@@ -84,11 +84,11 @@ void compare_states(const SimulationModel& model, const Kernels& kernels) {
 /// Compares positions, with what the cutters cut.
 void compare_cut(const SceneDescription& scene, const Kernels& kernels) {
     test::TwinWithCuts twin(scene);
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.positions = true;
     options.kernels = kernels;
-    FrameLoop loop(gpu().device, twin.model(), options);
+    FrameServer server(gpu().device, twin.model(), options);
     bool finite = true;
     const auto compare_frame = [&](const FinishedFrame& frame) {
         twin.run_frame(frame.frame);
@@ -100,7 +100,7 @@ void compare_cut(const SceneDescription& scene, const Kernels& kernels) {
         }
     };
     try {
-        loop.run(
+        server.run(
             scene.time.frame_count - 1, [](std::uint32_t) { return true; }, compare_frame, [&] { return !finite; });
     } catch (const vulkan::VulkanError&) {
         if (!twin.model().self_contact) throw;  // else its lists were full

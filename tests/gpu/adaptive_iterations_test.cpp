@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "twin_comparison.h"
 
 namespace drape {
@@ -19,13 +19,13 @@ using test::substep_count;
 /// Compares the iterations by frame of device and twin; returns those of the last frames.
 std::vector<std::uint32_t> compare_iterations(const SceneDescription& scene) {
     const SimulationModel model(scene);
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.positions = options.statistics = true;
-    FrameLoop loop(test::gpu().device, model, options);
+    FrameServer server(test::gpu().device, model, options);
     Twin twin(model);
     std::vector<std::uint32_t> counts;
-    loop.run(
+    server.run(
         frame_count, [](std::uint32_t frame) { return frame > 0; },
         [&](const FinishedFrame& frame) {
             twin.run_frame(frame.frame);

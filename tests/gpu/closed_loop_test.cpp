@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "picture/frame_copy.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "support/self_contact_scenes.h"
 #include "twin/twin_loop.h"
 #include "twin_comparison.h"
@@ -61,12 +61,12 @@ bool same(const FrameEffort& a, const FrameEffort& b) {
 
 Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) {
     const SimulationModel model(scene, options);
-    FrameLoopOptions wanted;
-    wanted.draw = wanted.keep_promises = false;
+    FrameOptions wanted;
+    wanted.draw = false;
     wanted.positions = wanted.statistics = true;
-    FrameLoop loop(test::gpu().device, model, wanted);
+    FrameServer server(test::gpu().device, model, wanted, {.keep_promises = false});
     Seen seen;
-    loop.run(
+    server.run(
         scene.time.frame_count - 1, [](std::uint32_t frame) { return frame > 0; },
         [&](const FinishedFrame& frame) {
             EXPECT_EQ(frame.frame, seen.efforts.size() + 1);
@@ -75,7 +75,8 @@ Seen on_device(const SceneDescription& scene, const ModelOptions& options = {}) 
             for (const std::span<const float> cloth : frame.positions)
                 all.insert(all.end(), cloth.begin(), cloth.end());
         });
-    seen.most_cells = count_of(loop.graph(FrameKind::simulate), ContactField::cells);
+    seen.most_cells =
+        count_of(server.graphs().planned(server.graphs().contents(true, false)).graph, ContactField::cells);
     return seen;
 }
 

@@ -11,7 +11,7 @@
 #include "base/vectors.h"
 #include "device_run.h"
 #include "gpu_test.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
 #include "support/twin_with_cuts.h"
@@ -27,8 +27,8 @@ Cutter blade(const Vec3& a, const Vec3& b, const Vec3& c, double begin, double e
     return cutter;
 }
 
-FrameLoopOptions positions_only() {
-    FrameLoopOptions options;
+FrameOptions positions_only() {
+    FrameOptions options;
     options.draw = false;
     options.positions = true;
     return options;
@@ -74,15 +74,16 @@ TEST(CutTest, AThousandCutsKeepEveryInvariantAndEqualTheTwin) {
     const double area = twin.topology(0).rest_area();
     std::uint32_t device_cuts = 0, twin_cuts = 0;
     std::uint64_t springs = 0;
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+    FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         ++device_cuts;
         springs += event.counts.springs;
         test::expect_consistent(topology);
         EXPECT_NEAR(topology.rest_area(), area, 1e-6 * area);
     };
-    FrameLoop loop(test::gpu().device, twin.model(), options);
-    loop.run(
+    FrameServer server(test::gpu().device, twin.model(), options, listener);
+    server.run(
         cut_count + 1, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             if (testing::Test::HasFailure()) return;
@@ -119,10 +120,11 @@ TEST(CutTest, CutsOfAGivenShapeWithMapsEqualTheTwin) {
     scene.cutters = random_blades(cut_count, scene.time.fps, 0.9);
     test::TwinWithCuts twin(scene);
     std::uint32_t cuts = 0;
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent&, const CutTopology& topology) { test::expect_consistent(topology); };
-    FrameLoop loop(test::gpu().device, twin.model(), options);
-    loop.run(
+    FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent&, const CutTopology& topology) { test::expect_consistent(topology); };
+    FrameServer server(test::gpu().device, twin.model(), options, listener);
+    server.run(
         cut_count + 1, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             if (testing::Test::HasFailure()) return;
@@ -160,13 +162,14 @@ TEST(CutTest, ThePieceCutFromAHangingSheetFallsFreeAndTheOtherHangsOn) {
     std::vector<Vec3> centre;
     double lowest_above = 0;
     std::uint32_t cut_frame = 0;
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent& event, const CutTopology& cut) {
+    FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology& cut) {
         cut_frame = event.frame;
         EXPECT_EQ(test::piece_count(cut), 2u);
     };
-    FrameLoop loop(test::gpu().device, model, options);
-    loop.run(
+    FrameServer server(test::gpu().device, model, options, listener);
+    server.run(
         61, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             centre.push_back(centre_below(model, frame.positions[0], 17));
@@ -197,15 +200,15 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
     idle.cutters = {blade({-5, -0.5, -3}, {5, -0.5, -3}, {0, -0.5, 6}, 90, 100)};
     std::vector<std::vector<glsl::vec4>> without, with;
     const SimulationModel plain_model(scene), idle_model(idle);
-    FrameLoop plain_loop(test::gpu().device, plain_model, positions_only());
-    plain_loop.run(
+    FrameServer plain_server(test::gpu().device, plain_model, positions_only());
+    plain_server.run(
         19, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) { without.push_back(texels(frame.positions[0])); });
-    FrameLoopOptions options = positions_only();
+    FrameOptions options = positions_only();
     options.timestamps = graph::TimestampMode::passes;
     std::vector<std::string> timed;
-    FrameLoop idle_loop(test::gpu().device, idle_model, options);
-    idle_loop.run(
+    FrameServer idle_server(test::gpu().device, idle_model, options);
+    idle_server.run(
         19, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             with.push_back(texels(frame.positions[0]));
@@ -217,10 +220,11 @@ TEST(CutTest, AnIdleCutterCostsNothingAndChangesNoBit) {
         EXPECT_TRUE(test::same_bits(with[frame], without[frame], where)) << frame << ": " << where;
     EXPECT_FALSE(timed.empty());
     for (const std::string& name : timed) EXPECT_EQ(name.find("cut"), std::string::npos) << name;
-    for (const graph::PlannedPass& pass : idle_loop.plan(FrameKind::simulate_and_output).passes)
-        EXPECT_NE(idle_loop.graph(FrameKind::simulate_and_output).passes()[pass.pass].stage, "cut");
-    EXPECT_FALSE(idle_loop.pool().has("sheet/spring shares")) << "the image comes with the first cut";
-    EXPECT_FALSE(plain_loop.pool().has("cutters"));
+    const PlannedGraph& searched_not = idle_server.graphs().planned(idle_server.graphs().contents(true, true));
+    for (const graph::PlannedPass& pass : searched_not.plan.passes)
+        EXPECT_NE(searched_not.graph.passes()[pass.pass].stage, "cut");
+    EXPECT_FALSE(idle_server.graphs().pool().has("sheet/spring shares")) << "the image comes with the first cut";
+    EXPECT_FALSE(plain_server.graphs().pool().has("cutters"));
 }
 
 /// Runs `frames` frames on the device and on the twin: the bits after each are the same, and there are at least ten
@@ -229,11 +233,12 @@ std::vector<glsl::ParticleTethers> expect_the_twins_cuts(const SceneDescription&
                                                          const Kernels& kernels = Kernels::automatic()) {
     test::TwinWithCuts twin(scene, kernels);
     std::uint32_t device_cuts = 0, twin_cuts = 0;
-    FrameLoopOptions options = positions_only();
+    FrameOptions options = positions_only();
     options.kernels = kernels;
-    options.on_cut = [&](const CutEvent&, const CutTopology&) { ++device_cuts; };
-    FrameLoop loop(test::gpu().device, twin.model(), options);
-    loop.run(
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent&, const CutTopology&) { ++device_cuts; };
+    FrameServer server(test::gpu().device, twin.model(), options, listener);
+    server.run(
         frames, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             if (testing::Test::HasFailure()) return;
@@ -296,10 +301,11 @@ TEST(CutTest, ABladeInFrameZeroActsFromFrameOneOn) {
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 8)};
     test::TwinWithCuts twin(scene);
     std::vector<std::uint32_t> cut_frames;
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent& event, const CutTopology&) { cut_frames.push_back(event.frame); };
-    FrameLoop loop(test::gpu().device, twin.model(), options);
-    loop.run(
+    FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology&) { cut_frames.push_back(event.frame); };
+    FrameServer server(test::gpu().device, twin.model(), options, listener);
+    server.run(
         3, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) {
             twin.run_frame(frame.frame);
@@ -349,10 +355,11 @@ TEST(CutTest, EveryFaceOfWhatABladeSweepsCuts) {
         }
         test::TwinWithCuts twin(scene);
         std::uint32_t springs = 0;
-        FrameLoopOptions options = positions_only();
-        options.on_cut = [&](const CutEvent& event, const CutTopology&) { springs += event.counts.springs; };
-        FrameLoop loop(test::gpu().device, twin.model(), options);
-        loop.run(
+        FrameOptions options = positions_only();
+        RunListener listener;
+        listener.on_cut = [&](const CutEvent& event, const CutTopology&) { springs += event.counts.springs; };
+        FrameServer server(test::gpu().device, twin.model(), options, listener);
+        server.run(
             2, [](std::uint32_t) { return true; },
             [&](const FinishedFrame& frame) {
                 twin.run_frame(frame.frame);
@@ -371,15 +378,16 @@ TEST(CutTest, DrawingACutClothIsCleanAndKeepsTheWholeSheetCovered) {
     scene.cutters = {blade({0.31, 5, -5}, {0.37, -10, -5}, {0.33, -2, 10}, 0.02, 0.02),
                      blade({-5, -0.41, -3}, {5, -0.45, -3}, {0, -0.43, 6}, 0.05, 0.05)};
     scene.camera = Camera{{0.5, -0.5, -2}, {0.5, -0.5, 0}, 40};
-    FrameLoopOptions options;
+    FrameOptions options;
     options.width = options.height = 256;
     options.samples = 1;
     std::vector<std::vector<std::uint8_t>> pictures;
     int cuts = 0;
-    options.on_cut = [&](const CutEvent&, const CutTopology&) { ++cuts; };
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent&, const CutTopology&) { ++cuts; };
     const SimulationModel model(scene);
-    FrameLoop loop(test::gpu().device, model, options);
-    loop.run(
+    FrameServer server(test::gpu().device, model, options, listener);
+    server.run(
         7, [](std::uint32_t) { return true; },
         [&](const FinishedFrame& frame) { pictures.emplace_back(frame.rgba.begin(), frame.rgba.end()); });
     EXPECT_EQ(cuts, 2);

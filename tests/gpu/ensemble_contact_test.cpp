@@ -155,7 +155,7 @@ TEST_F(EnsembleContactTest, StatesSavedInContactGoOnToTheSameBits) {
     Ensemble ensemble(members, {}, library_device());
     for (int frame = 0; frame < 12; ++frame) ensemble.step();
     const SimulationState saved[] = {ensemble.save(1), ensemble.save(2)};
-    ASSERT_GT(saved[0].at("contact/borne").size(), sizeof(float) * 8);
+    ASSERT_GT(saved[0].at("field/contact borne").size(), sizeof(float) * 8);
     std::vector<std::vector<float>> after;
     for (int frame = 0; frame < 3; ++frame) ensemble.step();
     for (const std::size_t k : {0u, 1u, 2u}) after.push_back(of_member(ensemble.positions(0), k));
@@ -167,9 +167,9 @@ TEST_F(EnsembleContactTest, StatesSavedInContactGoOnToTheSameBits) {
     EXPECT_TRUE(same_bytes(of_member(fresh.positions(0), 1), after[1]));
     EXPECT_TRUE(same_bytes(of_member(fresh.positions(0), 2), after[2]));
     SimulationState wrong = saved[0];
-    wrong["contact/borne"].pop_back();
+    wrong["field/contact borne"].pop_back();
     EXPECT_THROW(fresh.restore(first, std::span(&wrong, 1)), Error);
-    wrong.erase("contact/borne");
+    wrong.erase("field/contact borne");
     EXPECT_THROW(fresh.restore(first, std::span(&wrong, 1)), Error);
     EXPECT_TRUE(same_bytes(of_member(fresh.positions(0), 1), after[1]));
 }

@@ -10,7 +10,7 @@
 #include "gpu_test.h"
 #include "picture/camera.h"
 #include "scene_files.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 
 namespace drape {
 namespace {
@@ -102,16 +102,16 @@ Center projected(const SceneDescription& scene, const std::span<const float> pos
 TEST(PictureProjectionTest, MarkedParticlesAreFoundAtTheirPixels) {
     const SceneDescription scene = marked_scene();
     const SimulationModel model(scene);
-    FrameLoopOptions options;
+    FrameOptions options;
     options.positions = true;
     options.width = picture_width;
     options.height = picture_height;
     options.samples = 4;
-    FrameLoop loop(test::gpu().device, model, options);
+    FrameServer server(test::gpu().device, model, options);
     double worst = 0;
     std::size_t found_count = 0;
     std::array<Center, markers.size()> first{}, last{};
-    loop.run(
+    server.run(
         last_frame, [](std::uint32_t frame) { return frame % 4 == 0; },
         [&](const FinishedFrame& frame) {
             ASSERT_EQ(frame.positions.size(), 1 + markers.size());

@@ -9,15 +9,15 @@
 
 #include "gpu_test.h"
 #include "scene_files.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 
 namespace drape {
 namespace {
 
 constexpr std::uint32_t width = 320, height = 180;
 
-FrameLoopOptions picture_options(std::uint32_t samples) {
-    FrameLoopOptions options;
+FrameOptions picture_options(std::uint32_t samples) {
+    FrameOptions options;
     options.positions = true;
     options.width = width;
     options.height = height;
@@ -34,9 +34,9 @@ struct Frames {
 /// Runs frames 0 .. last, of which every `step`-th is handed out.
 Frames run(const SceneDescription& scene, std::uint32_t last, std::uint32_t step, std::uint32_t samples) {
     const SimulationModel model(scene);
-    FrameLoop loop(test::gpu().device, model, picture_options(samples));
+    FrameServer server(test::gpu().device, model, picture_options(samples));
     Frames frames;
-    const bool complete = loop.run(
+    const bool complete = server.run(
         last, [&](std::uint32_t frame) { return frame % step == 0; },
         [&](const FinishedFrame& frame) {
             frames.numbers.push_back(frame.frame);

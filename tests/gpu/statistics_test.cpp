@@ -15,7 +15,7 @@
 #include "plain_statistics.h"
 #include "run/run_statistics.h"
 #include "simulation/frame_checks.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "solver/statistics_pass.h"
 #include "support/meshes.h"
 #include "support/sheets.h"
@@ -380,7 +380,7 @@ TEST(StatisticsTest, PenetrationIsTheDepthUnderTheThicknessOfFreeParticles) {
 
 class FrameStatistics : public testing::TestWithParam<std::pair<SolverMethod, std::uint32_t>> {};
 
-TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
+TEST_P(FrameStatistics, TheyAreHandedOutForEveryFrameThatIsWanted) {
     SceneDescription scene = soft_sheet(40, 30);
     scene.solver.method = GetParam().first;
     scene.solver.iterations = GetParam().second;
@@ -394,13 +394,13 @@ TEST_P(FrameStatistics, TheFrameLoopHandsThemOutForEveryFrameThatIsWanted) {
     second.rest = Rest::start;
     scene.cloths.push_back(second);
     const SimulationModel model(scene);
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.statistics = true;
-    FrameLoop loop(test::gpu().device, model, options);
+    FrameServer server(test::gpu().device, model, options);
     Twin twin(model);
     std::uint32_t next = 0;
-    loop.run(
+    server.run(
         8, [](std::uint32_t frame) { return frame % 2 == 0; },
         [&](const FinishedFrame& frame) {
             ASSERT_EQ(frame.frame, next);
@@ -444,12 +444,12 @@ TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
     scene.time.frame_count = 121;
     const auto at_rest = [&] {
         const SimulationModel model(scene);
-        FrameLoopOptions options;
+        FrameOptions options;
         options.draw = false;
         options.statistics = true;
-        FrameLoop loop(test::gpu().device, model, options);
+        FrameServer server(test::gpu().device, model, options);
         ClothStatistics last;
-        loop.run(
+        server.run(
             120, [](std::uint32_t frame) { return frame == 120; },
             [&](const FinishedFrame& frame) { last = frame.statistics[0]; });
         return last;
@@ -478,21 +478,21 @@ TEST(StatisticsTest, TheStretchErrorIsWhatTheSolverMissedNotWhatTheClothGives) {
 
 TEST(StatisticsTest, NobodyAsksNothingRuns) {
     const SimulationModel model(soft_sheet(16, 16));
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.positions = true;
-    const FrameLoop loop(test::gpu().device, model, options);
-    EXPECT_FALSE(loop.pool().has(statistics_readback_name(model.cloths[0].name)));
-    const auto& skipped = loop.plan(FrameKind::simulate_and_output).skipped;
+    FrameServer server(test::gpu().device, model, options);
+    EXPECT_FALSE(server.graphs().pool().has(statistics_readback_name(model.cloths[0].name)));
+    const auto& skipped = server.graphs().planned(server.graphs().contents(true, true)).plan.skipped;
     EXPECT_TRUE(std::ranges::any_of(skipped, [](const graph::Remark& s) { return s.what == "statistics"; }));
     options.statistics = true;
-    const FrameLoop asked(test::gpu().device, model, options);
-    const auto statistics_passes = [&](FrameKind kind) {
-        return std::ranges::count(asked.graph(kind).passes(), "statistics", &graph::Pass::stage);
+    FrameServer asked(test::gpu().device, model, options);
+    const auto statistics_passes = [&](const FrameContents& contents) {
+        return std::ranges::count(asked.graphs().planned(contents).graph.passes(), "statistics", &graph::Pass::stage);
     };
-    EXPECT_EQ(statistics_passes(FrameKind::simulate), 0);
-    EXPECT_EQ(statistics_passes(FrameKind::simulate_and_output), 2);
-    EXPECT_EQ(statistics_passes(FrameKind::initial), 2);
+    EXPECT_EQ(statistics_passes(asked.graphs().contents(true, false)), 0);
+    EXPECT_EQ(statistics_passes(asked.graphs().contents(true, true)), 2);
+    EXPECT_EQ(statistics_passes(asked.graphs().contents(false, true, true)), 2);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu_test.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -10,12 +10,12 @@ namespace {
 
 std::vector<ClothStatistics> after_frames(const SceneDescription& scene, std::uint32_t count) {
     const SimulationModel model(scene);
-    FrameLoopOptions options;
+    FrameOptions options;
     options.draw = false;
     options.statistics = true;
-    FrameLoop loop(test::gpu().device, model, options);
+    FrameServer server(test::gpu().device, model, options);
     std::vector<ClothStatistics> last;
-    loop.run(
+    server.run(
         count, [=](std::uint32_t frame) { return frame == count; },
         [&](const FinishedFrame& frame) { last = frame.statistics; });
     return last;

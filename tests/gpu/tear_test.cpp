@@ -10,7 +10,7 @@
 #include "device_run.h"
 #include "drape/scene_reader.h"
 #include "gpu_test.h"
-#include "simulation/frame_loop.h"
+#include "simulation/frame_server.h"
 #include "support/cut_checks.h"
 #include "support/sheets.h"
 #include "support/twin_with_cuts.h"
@@ -18,8 +18,8 @@
 namespace drape {
 namespace {
 
-FrameLoopOptions positions_only() {
-    FrameLoopOptions options;
+FrameOptions positions_only() {
+    FrameOptions options;
     options.draw = false;
     options.positions = true;
     return options;
@@ -64,8 +64,9 @@ struct TornOff {
 TornOff torn_off(const SceneDescription& scene) {
     const SimulationModel model(scene);
     TornOff torn;
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+    const FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         if (torn.events++ == 0) torn.frame = event.frame;
         torn.pieces = event.counts.pieces;
         torn.crumbs = event.counts.crumbs;
@@ -77,8 +78,8 @@ TornOff torn_off(const SceneDescription& scene) {
             if (topology.cut_fraction(k, 1) >= 0)
                 torn.rows.push_back(static_cast<std::uint32_t>(k) / model.cloths[0].grid.columns());
     };
-    FrameLoop loop(test::gpu().device, model, options);
-    loop.run(scene.time.frame_count - 1, always, [](const FinishedFrame&) {});
+    FrameServer server(test::gpu().device, model, options, listener);
+    server.run(scene.time.frame_count - 1, always, [](const FinishedFrame&) {});
     return torn;
 }
 
@@ -175,15 +176,16 @@ void expect_the_twins_bits(const SceneDescription& scene) {
     test::TwinWithCuts twin(scene);
     CutCounts device, expected;
     std::array<std::uint32_t, 2> events{};
-    FrameLoopOptions options = positions_only();
-    options.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
+    const FrameOptions options = positions_only();
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         device.torn += event.counts.torn;
         device.triangles += event.counts.triangles;
         ++events[event.cloth];
         test::expect_consistent(topology);
     };
-    FrameLoop loop(test::gpu().device, twin.model(), options);
-    loop.run(
+    FrameServer server(test::gpu().device, twin.model(), options, listener);
+    server.run(
         twin_frames, always,
         [&](const FinishedFrame& frame) {
             if (testing::Test::HasFailure()) return;
@@ -238,14 +240,15 @@ TEST(TearTest, AutoTearsAndGoesOn) {
     add_seam(cloth, 20, 0.25f);
     const SimulationModel model(scene);
     std::uint32_t torn = 0, pieces = 0, attempts = 0, frames = 0;
-    FrameLoopOptions options = positions_only();
+    FrameOptions options = positions_only();
     options.statistics = true;
-    options.on_cut = [&](const CutEvent& event, const CutTopology&) {
+    RunListener listener;
+    listener.on_cut = [&](const CutEvent& event, const CutTopology&) {
         torn += event.counts.torn;
         pieces = event.counts.pieces;
     };
-    FrameLoop loop(test::gpu().device, model, options);
-    loop.run(120, always, [&](const FinishedFrame& frame) {
+    FrameServer server(test::gpu().device, model, options, listener);
+    server.run(120, always, [&](const FinishedFrame& frame) {
         ++frames;
         attempts += frame.effort.attempts;
         if (frame.frame > 0) {
@@ -282,19 +285,19 @@ TEST(TearTest, AClothThatHoldsHasTheBitsOfOneThatCannotTear) {
     std::vector<std::vector<glsl::vec4>> bits;
     for (const SceneDescription& scene : {plain, holds}) {
         const SimulationModel model(scene);
-        FrameLoop loop(test::gpu().device, model, positions_only());
+        FrameServer server(test::gpu().device, model, positions_only());
         std::size_t k = 0;
         std::string where;
-        loop.run(19, always, [&](const FinishedFrame& frame) {
+        server.run(19, always, [&](const FinishedFrame& frame) {
             if (scene.tears()) {
                 EXPECT_TRUE(test::same_bits(texels(frame.positions[0]), bits[k++], where)) << k << ": " << where;
             } else {
                 bits.push_back(texels(frame.positions[0]));
             }
         });
-        EXPECT_EQ(loop.pool().has("sheet/tear loads"), scene.tears());
-        EXPECT_FALSE(loop.pool().has("sheet/spring shares")) << "the image comes with the first tear";
-        const auto& skipped = loop.graph(FrameKind::simulate_and_output).skipped();
+        EXPECT_EQ(server.graphs().pool().has("sheet/tear loads"), scene.tears());
+        EXPECT_FALSE(server.graphs().pool().has("sheet/spring shares")) << "the image comes with the first tear";
+        const auto& skipped = server.graphs().planned(server.graphs().contents(true, true)).graph.skipped();
         const auto search = std::ranges::find(skipped, "tear search", &graph::Remark::what);
         ASSERT_NE(search, skipped.end());
         EXPECT_EQ(search->reason,

@@ -206,9 +206,9 @@ TEST(TwinTogetherTest, TheirNumberChangesNoNumberOfPasses) {
 }
 
 TEST(TwinTogetherTest, TheirNumberChangesNoNumberOfPassesAroundAttempts) {
-    using enum AttemptStep;
+    using enum StateStep;
     const SimulationModel two(alike(SolverMethod::automatic, 2)), five(alike(SolverMethod::automatic, 5));
-    for (const AttemptStep step : {keep, restore, change_substep, remember, compare}) {
+    for (const StateStep step : {keep, restore, change_substep, remember, compare}) {
         std::vector<std::size_t> counts;
         for (const SimulationModel* model : {&two, &five}) {
             ClothSolver solver(test::gpu().device, *model);

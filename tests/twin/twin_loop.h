@@ -1,19 +1,14 @@
-// The twin of the closed loop asks the same control the same questions about the twin's frames. The scene must have no
-// cutters.
+// The twin of a closed loop: the pilot of the device (control/auto_pilot.h) says what the twins simulate. The scene
+// must have no cutters and nothing that tears.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
-#include "control/drive.h"
-#include "control/frame_judgement.h"
-#include "control/motion_error.h"
-#include "control/sensitivity.h"
-#include "control/sleep.h"
-#include "control/substep_control.h"
-#include "control/watch.h"
-#include "drape/simulation.h"
+#include "control/auto_pilot.h"
 #include "twin/twin.h"
 
 namespace drape {
@@ -30,32 +25,19 @@ class TwinLoop {
 
   private:
     const SimulationModel& at(std::uint32_t substeps);
-    Judgement attempt(std::uint32_t frame, std::vector<Twin>& frames);
+    WorkResult done(const Work& work);
+    void do_step(StateStep step, const Work& work, WorkResult& result);
     std::vector<ClothStatistics> statistics(Twin& twin, std::uint32_t frame, const SimulationModel& run) const;
-    double motion(const Twin& fine, const Twin& coarse);
     std::vector<double> differences(const Twin& fine, const Twin& coarse) const;
-    /// A run beside the one that is handed out.
-    struct Beside {
-        Twin twin;
-        std::uint32_t substeps;  ///< of its history
-    };
-    void follow(Beside& beside, std::uint32_t substeps);
-    void follow_segment(const Twin& end, FrameEffort& effort);
+    Twin& in(StateSet set) { return states_[static_cast<std::size_t>(set)]; }
 
     const SimulationModel& model_;
     std::map<std::uint32_t, std::unique_ptr<SimulationModel>> runs_;
-    SubstepControl control_;
-    Watch watch_;
-    Sleep sleep_;
-    Drive drive_;
-    std::vector<std::vector<ClothStatistics>> attempt_statistics_;
-    std::vector<ClothStatistics> before_;  ///< statistics of what the segment starts from
-    Twin state_;
-    std::uint32_t next_ = 1, state_substeps_;
-    Beside companion_, disturbed_;
-    double motion_error_ = 0;
-    MotionError position_error_;
-    Sensitivity sensitivity_;
+    AutoPilot pilot_;
+    std::vector<Twin> states_;  ///< by set
+    std::map<StateSet, Twin> kept_;
+    std::optional<Twin> remembered_;
+    std::uint32_t next_ = 1;
 };
 
 }  // namespace drape

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <map>
-#include <mutex>
 #include <set>
 #include <thread>
 
@@ -105,7 +104,7 @@ class RunsHere {
     bool make(const std::vector<sweep::GroupedRun>& group) {
         begun_ = std::chrono::steady_clock::now();
         if (group.size() == 1)
-            end(run_alone(group.front()));
+            end(group.front().index, run_alone(group.front()));
         else
             make_together(group);
         if (unwritten_ && group.size() == 1) std::rethrow_exception(unwritten_->error);
@@ -139,67 +138,64 @@ class RunsHere {
     bool several() const { return asked_.size() > 1; }
     /// Messages of several runs are mixed; each run's file has its own.
     void tell(std::uint32_t index, const std::string& text) {
-        const std::scoped_lock lock(mutex_);
         logs_[index] += printable(text) + "\n";
         print_message(fmt::format("run {}: {}", index, text));
     }
-    std::string log_of(std::uint32_t index) {
-        const std::scoped_lock lock(mutex_);
-        return logs_[index];
-    }
     /// Makes those alone that the device could not take together with others.
     void make_together(const std::vector<sweep::GroupedRun>& group) {
-        std::set<std::uint32_t> ended;
+        std::set<std::size_t> ended;
+        std::vector<RunRequest> requests;
+        for (const sweep::GroupedRun& run : group) requests.push_back(run.request);
         try {
-            sweep::run_group(group, [&](const sweep::GroupedEnd& run) {
-                ended.insert(run.index);
-                end(run);
+            run_scenes_together(requests, [&](const RunEnd& run) {
+                ended.insert(run.number);
+                end(group[run.number].index, run);
             });
         } catch (const DeviceError&) {
-            for (const sweep::GroupedRun& run : group)
-                if (!ended.contains(run.index)) end(run_alone(run));
+            for (std::size_t k = 0; k < group.size(); ++k)
+                if (!ended.contains(k)) end(group[k].index, run_alone(group[k]));
         }
     }
-    static sweep::GroupedEnd run_alone(const sweep::GroupedRun& run) {
+    static RunEnd run_alone(const sweep::GroupedRun& run) {
         try {
-            return {run.index, run_scene(run.request).complete, nullptr};
+            return {0, run_scene(run.request).complete, nullptr};
         } catch (...) {
-            return {run.index, false, std::current_exception()};
+            return {0, false, std::current_exception()};
         }
     }
     void note(ExitCode code) {
         if (code != ExitCode::ok) worst_ = code;
     }
-    void end(const sweep::GroupedEnd& run) {
+    void end(std::uint32_t index, const RunEnd& run) {
         sweep::JobRecord record;
-        record.index = run.index;
+        record.index = index;
         std::string failed;
         if (run.failure) {
             const Failure failure = failure_of(run.failure);
             // A full disk says nothing about the run: without a record --resume runs it again.
             if (failure.code == ExitCode::io) {
-                return leave_unwritten({run.index, run.failure});
+                return leave_unwritten({index, run.failure});
             }
             record.exit_code = static_cast<int>(failure.code);
             record.message = failure.text;
-            failed = fmt::format("run {}: {}", run.index, failure.text);
+            failed = fmt::format("run {}: {}", index, failure.text);
             print_error(failed);
         } else if (!run.complete) {
-            if (stopped_.empty()) stopped_ = fmt::format("run {} left no record", run.index);
+            if (stopped_.empty()) stopped_ = fmt::format("run {} left no record", index);
             return;
         }
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
         try {
-            if (several()) write_log(run.index, failed);
+            if (several()) write_log(index, failed);
             folder_.write(record, options_.dataset);
         } catch (const OutputError&) {
-            return leave_unwritten({run.index, std::current_exception()});
+            return leave_unwritten({index, std::current_exception()});
         }
         note(static_cast<ExitCode>(record.exit_code));
     }
     /// Leaves what a process of the run's own would say.
     void write_log(std::uint32_t index, const std::string& failed) {
-        const std::string text = log_of(index) + (failed.empty() ? "" : "drape: " + printable(failed) + "\n");
+        const std::string text = logs_[index] + (failed.empty() ? "" : "drape: " + printable(failed) + "\n");
         if (!text.empty()) write_file(folder_.log_file(index), text);
     }
     struct Unwritten {
@@ -222,7 +218,6 @@ class RunsHere {
     const sweep::SweepFolder& folder_;
     std::vector<std::uint32_t> asked_;
     std::chrono::steady_clock::time_point begun_;
-    std::mutex mutex_;
     std::map<std::uint32_t, std::string> logs_;
     ExitCode worst_ = ExitCode::ok;
     std::string stopped_;                 ///< the first run that was

@@ -1,10 +1,6 @@
 #include "sweep/groups.h"
 
-#include <memory>
-#include <mutex>
-
 #include "cloth/members.h"
-#include "drape/ensemble.h"
 
 namespace drape::sweep {
 
@@ -31,17 +27,6 @@ std::optional<GroupShape> shape_of(const SceneDescription& scene, DeviceKind dev
     const SimulationModel model(scene, {.device = device});
     if (sharing_obstacle(model)) return std::nullopt;
     return GroupShape{scene, model.scene.solver.method};
-}
-
-bool is_of_device(const std::exception_ptr& failure) {
-    if (!failure) return false;
-    try {
-        std::rethrow_exception(failure);
-    } catch (const DeviceError&) {
-        return true;
-    } catch (...) {
-        return false;
-    }
 }
 
 bool alike(const GroupShape& first, const GroupShape& other) {
@@ -72,32 +57,6 @@ std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, Dev
         groups[k].push_back(std::move(run));
     }
     return groups;
-}
-
-void run_group(const std::vector<GroupedRun>& group, const std::function<void(const GroupedEnd&)>& ended) {
-    std::vector<SceneDescription> scenes;
-    for (const GroupedRun& run : group) scenes.push_back(asked_scene(run.request.scene));
-    const RunRequest& first = group.front().request;
-    const Device device = device_of(first.scene, scenes.front(), false);
-    const auto shared = std::make_shared<EnsembleRun>(scenes, first.scene.kernels, device);
-    std::mutex mutex;
-    std::exception_ptr of_device;
-    shared->run([&](std::size_t number) {
-        GroupedEnd end{group[number].index, false, nullptr};
-        try {
-            RunRequest request = group[number].request;
-            request.shared = {device, {shared, number}};
-            end.complete = run_scene(request).complete;
-        } catch (...) {
-            end.failure = std::current_exception();
-        }
-        const std::scoped_lock lock(mutex);
-        if (is_of_device(end.failure))
-            of_device = end.failure;
-        else
-            ended(end);
-    });
-    if (of_device) std::rethrow_exception(of_device);
 }
 
 }  // namespace drape::sweep

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
-#include <functional>
 #include <vector>
 
 #include "cloth/device_costs.h"
@@ -16,7 +14,7 @@ struct GroupedRun {
     RunRequest request;
 };
 
-/// A group has at most so many runs, each of which has a thread.
+/// A group has at most so many runs, whose files are open at the same time.
 inline constexpr std::size_t most_grouped = 256;
 
 /// Returns whether runs of this scene can share dispatches on such a device, and gain by it: no cloth is cut or fills
@@ -25,16 +23,5 @@ bool can_be_grouped(const RunRequest& request, DeviceKind device);
 
 /// Returns the runs in lists of those that go on together, in order. One that goes on alone is in a list of its own.
 std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, DeviceKind device);
-
-/// The end of a run: complete, stopped, or failed.
-struct GroupedEnd {
-    std::uint32_t index;
-    bool complete;
-    std::exception_ptr failure;
-};
-
-/// Makes the runs of a group, a thread each, and tells of each as it ends, one at a time. Where the device cannot take
-/// all of them it throws DeviceError, and those that it has not told of have no result.
-void run_group(const std::vector<GroupedRun>& group, const std::function<void(const GroupedEnd&)>& ended);
 
 }  // namespace drape::sweep

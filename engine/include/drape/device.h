@@ -53,7 +53,6 @@ class Device {
   private:
     friend class Simulation;
     friend class Ensemble;
-    friend class EnsembleRun;
     struct Parts;
     std::shared_ptr<Parts> parts_;
 };

@@ -113,24 +113,4 @@ class Ensemble {
     std::unique_ptr<Parts> parts_;
 };
 
-/// Simulations that go on together, each of a scene of its own on a thread of its own (SimulationOptions::member).
-class EnsembleRun {
-  public:
-    /// `scenes`: of one shape, for which method `auto` chooses the same. Throws like Ensemble, and Error where they
-    /// cannot share dispatches.
-    EnsembleRun(const std::vector<SceneDescription>& scenes, const Kernels& kernels, const Device& device);
-    ~EnsembleRun();
-
-    /// Calls `simulate` for each member, each on a thread of its own: it makes the member's simulation and runs it.
-    /// Returns when all have returned, and throws what one of them threw.
-    void run(const std::function<void(std::size_t member)>& simulate);
-
-  private:
-    friend class Simulation;
-    struct Parts;
-    class Frames;
-    class Lanes;
-    std::unique_ptr<Parts> parts_;
-};
-
 }  // namespace drape

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,11 +32,17 @@ struct FrameAttempt {
     std::uint32_t number;  ///< from 1: frames that miss a limit are done again
 };
 
-class EnsembleRun;
-/// A simulation that goes on together with those of the other members, of which this one was made of the same scene.
-struct EnsembleMember {
-    std::shared_ptr<EnsembleRun> run;
-    std::size_t number = 0;
+/// Frames that are asked for, as Simulation::run says.
+struct FrameRequest {
+    std::uint32_t last = 0;
+    std::function<bool(std::uint32_t)> wanted;
+    std::function<void(const FinishedFrame&)> finished;
+    std::function<bool()> stop = {};
+};
+/// How that ended.
+struct RequestEnd {
+    bool complete = false;            ///< it came to the last frame
+    std::exception_ptr failure = {};  ///< what Simulation::run would have thrown; null: nothing
 };
 
 struct SimulationOptions {
@@ -52,8 +59,6 @@ struct SimulationOptions {
     Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
     std::function<void(const FrameAttempt&)> on_attempt;  ///< told of before each
-    /// It draws nothing then and cannot be saved.
-    std::optional<EnsembleMember> member;
 };
 
 /// These facts tell how a simulation runs its scene.
@@ -132,6 +137,16 @@ class Simulation {
     ~Simulation();
     Simulation(Simulation&&) noexcept;
 
+    /// Makes simulations of scenes of one shape, for which method `auto` chooses the same, that share dispatches; each
+    /// has options of its own, of which callbacks alone may differ. They draw nothing, cannot be saved, and go on by
+    /// `run_together` alone. Throws like the constructor, and Error where they cannot share dispatches.
+    static std::vector<Simulation> together(const std::vector<SceneDescription>& scenes,
+                                            const std::vector<SimulationOptions>& options, const Device& device);
+    /// Computes what is asked of each of the simulations that were made together, once. Throws DeviceError, after
+    /// which all are over.
+    static std::vector<RequestEnd> run_together(std::span<Simulation> simulations,
+                                                std::span<const FrameRequest> requests);
+
     /// Computes the next frame, the first time frame 0, for `frame`; returns false and does nothing after the scene's
     /// last. Throws Diverged, ToleranceMissed or DeviceError, after which this simulation is over.
     bool step();
@@ -176,6 +191,7 @@ class Simulation {
 
   private:
     struct Parts;
+    explicit Simulation(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
 };
 

@@ -1,0 +1,203 @@
+#include "simulation/flight.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "cloth/members.h"
+#include "cloth/substep_change.h"
+#include "solver/readback_pass.h"
+
+namespace drape {
+
+namespace {
+
+/// Gives inputs of a member that takes no part the size that they have for so many substeps.
+void fill(const SimulationModel& model, std::uint32_t substeps, FrameInputs& inputs) {
+    inputs.wind.assign(model.windy ? substeps * (model.weighs ? 2u : 1u) : 0u, {});
+    std::size_t records = 0;
+    for (const std::vector<KeptCollider>& list : model.kept_colliders) records += list.size();
+    inputs.colliders.assign(records, {});
+    inputs.collider_sets = 1;
+    inputs.pins.resize(model.cloths.size());
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        inputs.pins[cloth].assign(model.cloths[cloth].dynamic_pins.size() * substeps, {});
+}
+
+void keep_last_set(FrameInputs& inputs) {
+    const auto count = static_cast<std::ptrdiff_t>(inputs.colliders.size() / inputs.collider_sets);
+    inputs.colliders.erase(inputs.colliders.begin(), inputs.colliders.end() - count);
+    inputs.collider_sets = 1;
+}
+
+bool compares(const std::optional<StateStep>& step) {
+    using enum StateStep;
+    return step == compare || step == compare_companion || step == compare_disturbed;
+}
+
+void write_present(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
+    const std::size_t each = graphs.cloths_each();
+    std::vector<bool> present(graphs.member_count() * each);
+    for (const std::size_t member : flight.members)
+        std::fill_n(present.begin() + static_cast<std::ptrdiff_t>(member * each), each, true);
+    graphs.solver().write_present(graphs.pool(), slot, present);
+}
+
+void write_changes(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
+    const std::size_t each = graphs.cloths_each();
+    std::vector<glsl::SubstepChange> all(graphs.member_count() * each);
+    for (std::size_t place = 0; place < flight.members.size(); ++place) {
+        const Work& work = flight.jobs[place].work;
+        const std::size_t member = flight.members[place];
+        std::ranges::copy(substep_changes(graphs.member(member), work.history_substeps, work.substeps),
+                          all.begin() + static_cast<std::ptrdiff_t>(member * each));
+    }
+    graphs.solver().write_changes(graphs.pool(), slot, all);
+}
+
+std::vector<ClothStatistics> statistics_in(const SimulationModel& run, std::uint32_t frame,
+                                           std::span<const std::span<const std::byte>> records) {
+    std::vector<ClothStatistics> all;
+    for (std::size_t cloth = 0; cloth < run.cloths.size(); ++cloth) {
+        glsl::StatisticsRecord record;
+        std::memcpy(&record, records[cloth].data(), sizeof record);
+        all.push_back(cloth_statistics(run, run.cloths[cloth], record, frame));
+    }
+    return all;
+}
+
+/// What the device read back of all cloths.
+struct Arrays {
+    std::vector<std::span<const float>> positions, normals, moved, excess;
+};
+
+}  // namespace
+
+FrameContents contents_of(const FrameGraphs& graphs, const Job& job) {
+    const Work& work = job.work;
+    const SceneDescription& scene = graphs.joint().scene;
+    const bool is_first = work.hands_out && work.frame == 0, is_run = work.set == StateSet::run;
+    FrameContents contents;
+    if (is_run) contents = graphs.contents(work.simulates, work.hands_out, is_first);
+    contents.set = work.set;
+    contents.simulates = work.simulates;
+    if (work.simulates && (graphs.joint().closed_loop() || !is_run)) contents.substeps = work.substeps;
+    contents.cuts = job.searches && !scene.cutters.empty();
+    contents.tears = job.searches && scene.tears() && work.frame > 0;
+    return contents;
+}
+
+void FlightInputs::write(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
+    if (graphs.in_part()) write_present(graphs, slot, flight);
+    if (flight.work().changes_substeps()) write_changes(graphs, slot, flight);
+    // The initial frame simulates nothing, but its statistics need to know where the colliders are.
+    if (flight.contents.simulates || flight.contents.counts)
+        write_frame(graphs, slot, flight);
+    else
+        graphs.solver().write_constants(graphs.pool(), slot, graphs.joint().scene.solver.substeps);
+    const double fps = graphs.joint().scene.time.fps;
+    const std::uint32_t frame = flight.work().frame;
+    if (flight.jobs.front().searches)
+        graphs.solver().write_cutters(graphs.pool(), slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+    if (flight.contents.hands_out && graphs.raster()) graphs.raster()->write_frame(graphs.pool(), slot, frame / fps);
+}
+
+void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
+    const std::uint32_t at = flight.contents.substeps;
+    const SimulationModel& joint = graphs.joint_at(at);
+    if (graphs.member_count() == 1)
+        return graphs.solver().write_inputs(graphs.pool(), slot, flight.work().frame, joint);
+    const std::uint32_t substeps = joint.scene.solver.substeps;
+    members_.resize(graphs.member_count());
+    if (flight.members.size() < members_.size())
+        for (std::size_t member = 0; member < members_.size(); ++member)
+            fill(graphs.member(member), substeps, members_[member]);
+    for (std::size_t place = 0; place < flight.members.size(); ++place) {
+        const std::size_t member = flight.members[place];
+        FrameInputs& own = members_[member];
+        take_frame_inputs(graphs.member_at(member, at), flight.jobs[place].work.frame, own);
+        // Members of a closed loop begin with substeps of their own: what is not simulated has the last one's
+        // colliders.
+        if (!flight.contents.simulates) keep_last_set(own);
+    }
+    join_inputs(joint, members_, joined_);
+    graphs.solver().write_inputs(graphs.pool(), slot, joined_, substeps);
+    graphs.solver().write_constants(graphs.pool(), slot, substeps);
+}
+
+std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
+    const ClothSolver& solver = graphs.solver();
+    const graph::ResourcePool& pool = graphs.pool();
+    const bool is_single = graphs.member_count() == 1;
+    const std::size_t each = graphs.cloths_each();
+    const bool counts = flight.contents.counts, meets = flight.contents.simulates && graphs.joint().self_contact;
+    const bool differs = compares(flight.work().before) || compares(flight.work().after);
+    std::vector<std::span<const std::byte>> records;
+    if (counts && !is_single) records = solver.statistics_records(pool, slot);
+    std::vector<double> differences;
+    if (differs) differences = solver.differences(pool, slot);
+    const double list_use = meets ? solver.self_list_use(solver.self_record(pool, slot)) : 0;
+    std::vector<WorkResult> results(flight.members.size());
+    for (std::size_t place = 0; place < results.size(); ++place) {
+        WorkResult& result = results[place];
+        const std::size_t member = flight.members[place];
+        const std::uint32_t frame = flight.jobs[place].work.frame;
+        const SimulationModel& run = graphs.member_at(member, flight.contents.substeps);
+        const auto own = [&](const auto& all) { return std::span(all).subspan(member * each, each); };
+        if (counts && is_single) result.statistics = solver.statistics(pool, slot, frame, run);
+        if (counts && !is_single) result.statistics = statistics_in(run, frame, own(records));
+        if (differs) result.differences.assign(own(differences).begin(), own(differences).end());
+        if (meets) result.contact = solver.self_record_of(pool, slot, member);
+        result.list_use = list_use;
+    }
+    if (is_single) results.front().timings = graphs.timings(flight.contents, slot);
+    return results;
+}
+
+void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
+              const std::function<void(std::size_t place, const FinishedFrame& frame)>& take) {
+    const FrameOptions& options = graphs.options();
+    const std::size_t each = graphs.cloths_each();
+    const double fps = graphs.joint().scene.time.fps;
+    const bool hands_out = flight.contents.hands_out;
+    Arrays arrays;
+    const auto read = [&](bool wanted, std::string_view what) {
+        return hands_out && wanted && !options.arrays_later ? graphs.solver().readback(graphs.pool(), slot, what)
+                                                            : std::vector<std::span<const float>>();
+    };
+    arrays.positions = read(options.positions, "position");
+    arrays.normals = read(options.normals, "normal");
+    arrays.moved = read(options.velocities, "displacement");
+    arrays.excess = read(options.velocities, "excess displacement");
+    for (std::size_t place = 0; place < flight.jobs.size(); ++place) {
+        const Work& work = flight.jobs[place].work;
+        const WorkResult& result = flight.results[place];
+        FinishedFrame frame;
+        frame.frame = work.frame;
+        frame.effort = work.known ? work.known->effort : flight.efforts[place];
+        frame.statistics = work.known ? work.known->statistics : result.statistics;
+        if (work.known) frame.timings = work.known->timings;
+        frame.timings.insert(frame.timings.end(), result.timings.begin(), result.timings.end());
+        const bool wanted = hands_out && flight.jobs[place].wanted;
+        if (wanted && options.draw) {
+            ClothRaster& raster = graphs.raster();
+            const std::span<std::byte> bytes = graphs.pool().buffer(RasterPass::readback_name, slot).mapped();
+            raster->finish(bytes.first(raster->readback_byte_count()));
+            frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster->readback_byte_count()};
+        }
+        std::vector<std::vector<float>> velocities;
+        for (std::size_t cloth = 0; cloth < each && wanted && !options.arrays_later; ++cloth) {
+            const std::size_t k = flight.members[place] * each + cloth;
+            if (options.positions) frame.positions.push_back(arrays.positions[k]);
+            if (options.normals) frame.normals.push_back(arrays.normals[k]);
+            if (!options.velocities) continue;
+            // The statistics take this for the velocity over the substep; it is 0 where there was none.
+            velocities.emplace_back(arrays.moved[k].size());
+            if (work.substeps > 0)
+                write_velocities(arrays.moved[k], arrays.excess[k], fps * work.substeps, velocities.back());
+        }
+        for (const std::vector<float>& array : velocities) frame.velocities.emplace_back(array);
+        take(place, frame);
+    }
+}
+
+}  // namespace drape

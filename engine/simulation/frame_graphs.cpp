@@ -1,0 +1,216 @@
+#include "simulation/frame_graphs.h"
+
+#include <fmt/format.h>
+
+namespace drape {
+
+FrameGraphs::FrameGraphs(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
+                         const FrameOptions& options)
+    : device_(device),
+      members_(members),
+      options_(options),
+      joined_(members.size() > 1 ? std::make_unique<SimulationModel>(members) : nullptr),
+      joint_(joined_ ? joined_.get() : members.front()),
+      solver_(device, *joint_, options.kernels, in_part()) {}
+
+FrameGraphs::ModelsAt& FrameGraphs::models_at(std::uint32_t substeps) {
+    ModelsAt& models = models_[substeps];
+    if (!models.own.empty()) return models;
+    std::vector<const SimulationModel*> all;
+    for (const SimulationModel* const member : members_)
+        all.push_back(models.own.emplace_back(std::make_unique<SimulationModel>(*member, substeps)).get());
+    if (joined_) models.joint = std::make_unique<SimulationModel>(all);
+    return models;
+}
+
+const SimulationModel& FrameGraphs::joint_at(std::uint32_t substeps) {
+    if (substeps == 0) return *joint_;
+    const ModelsAt& models = models_at(substeps);
+    return joined_ ? *models.joint : *models.own.front();
+}
+
+const SimulationModel& FrameGraphs::member_at(std::size_t number, std::uint32_t substeps) {
+    return substeps == 0 ? *members_[number] : *models_at(substeps).own[number];
+}
+
+FrameContents FrameGraphs::contents(bool simulates, bool hands_out, bool first) const {
+    // A closed loop judges what it simulates, and hands that out.
+    const bool wanted = joint_->closed_loop() && !first
+                            ? simulates
+                            : (hands_out && options_.statistics) || (simulates && options_.judges);
+    return {.simulates = simulates, .hands_out = hands_out, .counts = wanted};
+}
+
+/// Returns the contents whose resources are those of all that this scene and these options ever need.
+std::vector<FrameContents> FrameGraphs::known_contents() const {
+    const SceneDescription& scene = joint_->scene;
+    const bool closed = joint_->closed_loop(), cuts = !scene.cutters.empty();
+    std::vector<FrameContents> all{contents(false, true, true), contents(true, false)};
+    if (!in_part()) all.push_back(contents(true, true));  // a closed loop only describes it
+    if (closed) all.push_back(contents(false, true));
+    if (scene.comes_apart())
+        for (FrameContents searched : std::vector(all)) {
+            searched.cuts = cuts;
+            searched.tears = scene.tears();
+            all.push_back(searched);
+        }
+    for (const StateSet set : {StateSet::companion, StateSet::disturbed})
+        if (has_set(*joint_, set)) all.push_back({.set = set, .simulates = true});
+    // What is submitted has the constants of a model that was made for its substeps.
+    if (in_part())
+        for (FrameContents& contents : all)
+            if (contents.simulates) contents.substeps = scene.solver.substeps;
+    return all;
+}
+
+void FrameGraphs::plan_known() {
+    planned_all_ = true;
+    frames_.clear();
+    steps_.clear();
+    fit_raster();
+    for (const FrameContents& contents : known_contents()) planned(contents);
+    for (std::size_t set = 0; set < state_set_count; ++set)
+        for (const StateStep step : state_steps(*joint_, static_cast<StateSet>(set))) {
+            const SetStep key{static_cast<StateSet>(set), step};
+            steps_[key] = plan(key);
+        }
+}
+
+const PlannedGraph& FrameGraphs::planned(const FrameContents& contents) {
+    const auto found = frames_.find(contents);
+    if (found != frames_.end()) return found->second;
+    return frames_[contents] = plan(contents);
+}
+
+void FrameGraphs::fit_raster() {
+    if (options_.draw) raster_.fit(device_, joint_->scene, options_, solver_.topologies());
+}
+
+PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
+    if (!raster_) fit_raster();
+    PlannedGraph planned;
+    graph::Graph& graph = planned.graph;
+    const SimulationModel& run = joint_at(contents.substeps);
+    const bool draws = contents.hands_out && (options_.draw || options_.normals);
+    solver_.declare(graph, {.drawing = draws, .statistics = contents.counts}, run, contents.set);
+    if (contents.simulates)
+        solver_.add_simulation(graph);
+    else if (contents.counts)
+        solver_.add_forms(graph);
+    if (contents.cuts) solver_.add_cuts(graph);
+    if (contents.tears) solver_.add_tears(graph);
+    note_skipped(graph, contents);
+    if (contents.hands_out) add_hand_out(graph);
+    if (contents.counts) solver_.add_statistics(graph);
+    planned.plan = graph::make_plan(graph);
+    return planned;
+}
+
+/// Adds what makes pictures and arrays of the state.
+void FrameGraphs::add_hand_out(graph::Graph& graph) {
+    if (options_.draw || options_.normals) solver_.add_normals(graph);
+    if (options_.draw) raster_->add(graph, raster_cloths(*joint_, solver_.cloths()));
+    if (options_.normals) solver_.add_readback(graph, Field::normal, "normal");
+    if (options_.positions) solver_.add_readback(graph, Field::position, "position");
+    if (!options_.velocities) return;
+    solver_.add_readback(graph, Field::displacement, "displacement");
+    solver_.add_readback(graph, Field::end_excess, "excess displacement");
+}
+
+void FrameGraphs::note_skipped(graph::Graph& graph, const FrameContents& contents) const {
+    const SceneDescription& scene = joint_->scene;
+    if (!contents.cuts)
+        graph.skip("cut search",
+                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
+    if (!contents.tears)
+        graph.skip("tear search",
+                   scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
+    if (!options_.draw && !options_.draws_beside)
+        graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
+                   "no picture is wanted");
+    if (!options_.positions) graph.skip("position readback", "no position export is wanted");
+    if (!contents.counts && !options_.statistics) graph.skip("statistics", "nobody asked for them");
+}
+
+PlannedGraph FrameGraphs::plan(const SetStep& step) {
+    PlannedGraph planned;
+    solver_.declare(planned.graph, {}, *joint_, step.first);
+    solver_.add_attempt(planned.graph, step.second);
+    planned.plan = graph::make_plan(planned.graph);
+    return planned;
+}
+
+std::vector<std::pair<const graph::Graph*, const graph::Plan*>> FrameGraphs::plans() const {
+    std::vector<std::pair<const graph::Graph*, const graph::Plan*>> all;
+    for (const auto& [contents, planned] : frames_) all.emplace_back(&planned.graph, &planned.plan);
+    for (const auto& [step, planned] : steps_) all.emplace_back(&planned.graph, &planned.plan);
+    return all;
+}
+
+std::uint64_t FrameGraphs::bytes() {
+    if (!planned_all_) plan_known();
+    return graph::planned_bytes(plans());
+}
+
+void FrameGraphs::allocate() {
+    if (!planned_all_) plan_known();
+    pool_.reset();
+    pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
+    upload();
+}
+
+void FrameGraphs::upload() {
+    solver_.upload(*pool_);
+    if (raster_) raster_->upload(*pool_);
+}
+
+void FrameGraphs::rebuild(const SimulationState& state) {
+    plan_known();
+    allocate();
+    solver_.upload_state(*pool_, state);
+}
+
+void FrameGraphs::draw_anew() {
+    if (!options_.draw) return;
+    fit_raster();
+    std::erase_if(frames_, [](const auto& frame) { return frame.first.hands_out; });
+    for (const FrameContents& contents : known_contents()) planned(contents);
+}
+
+void FrameGraphs::record(PlannedGraph& planned) const {
+    if (!planned.recorded)
+        planned.recorded = std::make_unique<graph::RecordedPlan>(planned.graph, planned.plan, *pool_,
+                                                                 options_.timestamps, options_.barrier_filter);
+}
+
+VkCommandBuffer FrameGraphs::commands(const FrameContents& contents, std::uint32_t slot) {
+    planned(contents);
+    PlannedGraph& frame = frames_.at(contents);
+    record(frame);
+    return frame.recorded->commands(slot);
+}
+
+VkCommandBuffer FrameGraphs::commands(StateStep step, StateSet set, std::uint32_t slot) {
+    PlannedGraph& planned = steps_.at({set, step});
+    record(planned);
+    return planned.recorded->commands(slot);
+}
+
+std::vector<StageTime> FrameGraphs::timings(const FrameContents& contents, std::uint32_t slot) const {
+    std::vector<StageTime> all;
+    const auto found = frames_.find(contents);
+    if (found == frames_.end() || !found->second.recorded) return all;
+    for (graph::Timing& timing : found->second.recorded->timings(slot))
+        all.push_back({std::move(timing.name), timing.milliseconds});
+    return all;
+}
+
+void check_room(const vulkan::Device& device, FrameGraphs& graphs, std::size_t count) {
+    const std::uint64_t each = graphs.bytes() / graphs.member_count();
+    const std::uint64_t room = device.budget().limit() - device.budget().used();
+    if (each * count > room)
+        throw vulkan::VulkanError(fmt::format("{} members need {} MiB, and the device has {} MiB left: {} fit", count,
+                                              (each * count) >> 20, room >> 20, room / each));
+}
+
+}  // namespace drape

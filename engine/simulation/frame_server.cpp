@@ -1,0 +1,192 @@
+#include "simulation/frame_server.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace drape {
+
+namespace {
+
+template <class List>
+bool is_any(const List& list) {
+    return std::ranges::any_of(list, [](const auto& each) { return each.has_value(); });
+}
+
+}  // namespace
+
+FrameServer::FrameServer(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
+                         const FrameOptions& options, const std::vector<RunListener>& listeners)
+    : graphs_(device, members, options), failures_(members.size()), waiting_(members.size()), slots_(device) {
+    for (std::size_t k = 0; k < members.size(); ++k)
+        runs_.push_back(std::make_unique<MemberRun>(*members[k], listeners.empty() ? RunListener{} : listeners[k]));
+}
+
+FrameServer::FrameServer(const vulkan::Device& device, const SimulationModel& model, const FrameOptions& options,
+                         const RunListener& listener)
+    : FrameServer(device, std::vector{&model}, options, {listener}) {
+    graphs_.allocate();
+}
+
+void FrameServer::ask(std::size_t member, const FrameRequest& request) {
+    failures_[member] = nullptr;
+    runs_[member]->ask(request);
+}
+
+std::unique_ptr<MemberRun> FrameServer::fresh_run(std::size_t number) const {
+    return std::make_unique<MemberRun>(graphs_.member(number), runs_[number]->listener());
+}
+
+void FrameServer::put_run(std::size_t number, std::unique_ptr<MemberRun> run) {
+    failures_[number] = nullptr;
+    waiting_[number].reset();
+    runs_[number] = std::move(run);
+}
+
+bool FrameServer::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
+                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
+    ask(0, {last, wanted, finished, stop});
+    serve();
+    return runs_.front()->complete();
+}
+
+template <class Act>
+void FrameServer::guarded(std::size_t member, const Act& act) {
+    if (is_single()) return act();
+    if (failures_[member]) return;
+    try {
+        act();
+    } catch (const vulkan::VulkanError&) {  // the device's failures are everybody's
+        throw;
+    } catch (...) {
+        failures_[member] = std::current_exception();
+    }
+}
+
+void FrameServer::take_jobs() {
+    for (std::size_t member = 0; member < runs_.size(); ++member)
+        if (!waiting_[member] && !failures_[member])
+            guarded(member, [&] { waiting_[member] = runs_[member]->next_job(); });
+}
+
+/// Returns those that wait for the same as most do.
+Flight FrameServer::largest_flight() {
+    using Alike = std::tuple<FrameContents, std::optional<StateStep>, std::optional<StateStep>, bool, std::uint32_t>;
+    std::map<Alike, std::vector<std::size_t>> groups;
+    for (std::size_t member = 0; member < waiting_.size(); ++member) {
+        if (!waiting_[member]) continue;
+        const Work& work = waiting_[member]->work;
+        groups[{contents_of(graphs_, *waiting_[member]), work.before, work.after, work.changes_substeps(),
+                work.simulates ? work.substeps : 0}]
+            .push_back(member);
+    }
+    const auto largest = std::ranges::max_element(groups, {}, [](const auto& group) { return group.second.size(); });
+    Flight flight{.contents = std::get<FrameContents>(largest->first), .members = largest->second};
+    for (const std::size_t member : flight.members) {
+        flight.jobs.push_back(std::move(*waiting_[member]));
+        waiting_[member].reset();
+    }
+    return flight;
+}
+
+void FrameServer::serve() {
+    for (;;) {
+        // Of several members all are to be asked before it is chosen who goes together.
+        if (!is_single() && flights_[0]) {
+            deliver(0);
+            continue;
+        }
+        take_jobs();
+        if (is_any(waiting_)) {
+            deliver(next_slot_);
+            submit(next_slot_, largest_flight());
+            if (is_single()) next_slot_ = (next_slot_ + 1) % vulkan::frame_slot_count;
+        } else if (is_any(flights_)) {
+            serve_one();
+        } else {
+            break;
+        }
+    }
+    for (std::size_t member = 0; member < runs_.size(); ++member) guarded(member, [&] { runs_[member]->conclude(); });
+}
+
+/// Hands out the frame before while a frame is simulated, and waits for that.
+void FrameServer::serve_one() {
+    const std::uint32_t older = next_slot_, newer = (next_slot_ + 1) % vulkan::frame_slot_count;
+    if (flights_[older]) return deliver(older);
+    if (!flights_[newer]->settled && flights_[newer]->jobs.front().until != Job::Until::delivered)
+        settle(newer);
+    else
+        deliver(newer);
+}
+
+void FrameServer::submit(std::uint32_t slot, Flight flight) {
+    const Work& work = flight.work();
+    std::vector<VkCommandBuffer> commands;
+    const auto add = [&](StateStep step) { commands.push_back(graphs_.commands(step, work.set, slot)); };
+    if (work.before) add(*work.before);
+    if (work.changes_substeps()) add(StateStep::change_substep);
+    if (!flight.contents.nothing()) commands.push_back(graphs_.commands(flight.contents, slot));
+    if (work.after) add(*work.after);
+    inputs_.write(graphs_, slot, flight);
+    slots_.submit(slot, commands);
+    flights_[slot] = std::move(flight);
+    if (flights_[slot]->contents.simulates && graphs_.options().meanwhile) graphs_.options().meanwhile();
+}
+
+/// Returns whether lists of contact were too short and are longer now; the work was begun again, or is asked for again
+/// by a pilot that goes back to an earlier frame.
+bool FrameServer::lengthened_lists(std::uint32_t slot) {
+    Flight& flight = *flights_[slot];
+    ClothSolver& solver = graphs_.solver();
+    if (!flight.contents.simulates || !graphs_.joint().self_contact) return false;
+    const glsl::SelfRecord record = solver.self_record(graphs_.pool(), slot);
+    if (solver.self_list_use(record) <= 1 || !solver.grow_lists(record)) return false;
+    deliver((slot + 1) % vulkan::frame_slot_count);
+    Flight again = std::move(flight);
+    flights_[slot].reset();
+    slots_.submit(slot, graphs_.commands(StateStep::restore, again.contents.set, slot));
+    slots_.wait(slot);
+    graphs_.rebuild(solver.download_state(graphs_.pool()));
+    if (again.work().attempt > 0)
+        runs_.front()->attempt_anew(again.jobs.front());
+    else
+        submit(slot, std::move(again));
+    return true;
+}
+
+void FrameServer::settle(std::uint32_t slot) {
+    slots_.wait(slot);
+    while (lengthened_lists(slot)) {
+        if (!flights_[slot]) return;
+        slots_.wait(slot);
+    }
+    Flight& flight = *flights_[slot];
+    flight.settled = true;
+    flight.results = flight_results(graphs_, slot, flight);
+    flight.efforts.resize(flight.members.size());
+    milliseconds_ = 0;
+    for (const StageTime& timing : graphs_.timings(flight.contents, slot)) milliseconds_ += timing.milliseconds;
+    for (std::size_t place = 0; place < flight.members.size(); ++place)
+        guarded(flight.members[place], [&] {
+            flight.efforts[place] = runs_[flight.members[place]]->settle(flight.jobs[place], flight.results[place]);
+        });
+}
+
+void FrameServer::deliver(std::uint32_t slot) {
+    if (!flights_[slot]) return;
+    if (!flights_[slot]->settled) settle(slot);
+    if (!flights_[slot]) return;  // it is asked for again
+    const Flight flight = std::move(*flights_[slot]);
+    flights_[slot].reset();
+    hand_out(graphs_, slot, flight, [&](std::size_t place, const FinishedFrame& frame) {
+        const std::size_t member = flight.members[place];
+        guarded(member, [&] { runs_[member]->deliver(flight.jobs[place], frame); });
+    });
+    if (!flight.jobs.front().searches) return;
+    // A cut acts from the next frame on, always: so that frame waits for this one's findings.
+    MemberRun& run = *runs_.front();
+    if (take_cuts(graphs_, slot, flight.work().frame, run.listener().on_cut)) run.pilot().wake();
+}
+
+}  // namespace drape
