@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -103,19 +104,12 @@ void add_obstacle(SceneDescription& scene, double seconds, Draw& draw) {
     const double hang = scene.cloths[0].placement.v[1] < -0.1 ? scene.cloths[0].size[1] : 0;
     const double radius = draw.between(0.1, 0.25), y = -hang - depth;
     Collider obstacle;
-    switch (draw.integer(0, 3)) {
-        case 0:
-            obstacle.shape = Plane{{0, 1, 0}, y - radius};
-            break;
-        case 1:
-            obstacle.shape = Box{{x, y, z}, {radius, 0.7 * radius, 0.5 * radius}};
-            break;
-        case 2:
-            obstacle.shape = Capsule{{x - 0.2, y, z}, {x + 0.2, y, z}, {radius, 0.5 * radius}};
-            break;
-        default:
-            obstacle.shape = Ellipsoid{{x, y, z}, {radius, 0.5 * radius, 0.8 * radius}};
-    }
+    const ColliderShape shapes[] = {Plane{{0, 1, 0}, y - radius}, Box{{x, y, z}, {radius, 0.7 * radius, 0.5 * radius}},
+                                    Capsule{{x - 0.2, y, z}, {x + 0.2, y, z}, {radius, 0.5 * radius}},
+                                    Ellipsoid{{x, y, z}, {radius, 0.5 * radius, 0.8 * radius}}};
+    constexpr std::size_t not_drawn = 2;  // a sphere is thrown elsewhere, and a mesh is a file
+    static_assert(std::size(shapes) + not_drawn == std::variant_size_v<ColliderShape>);
+    obstacle.shape = shapes[draw.integer(0, std::size(shapes) - 1)];
     obstacle.friction = draw.between(0, 0.8);
     if (draw.integer(0, 2) == 0) {
         const double lift = draw.between(0, depth), shift = draw.between(-0.5, 0.5);

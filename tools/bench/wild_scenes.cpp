@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include "base/vectors.h"
 #include "bench/random_scenes.h"
+#include "mesh/mesh_shape.h"
 #include "world/random.h"
 
 namespace drape::bench {
@@ -207,46 +210,60 @@ struct Ball {
     double radius;
 };
 
-/// Around a collider of any kind but a plane, about its own centre.
+/// Returns the radius of a ball about a shape's own centre that holds it, m.
 double bounding_radius(const ColliderShape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-    if (const auto* box = std::get_if<Box>(&shape)) return length(box->half_extents);
-    if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) return std::ranges::max(ellipsoid->radii);
-    const auto& capsule = std::get<Capsule>(shape);
-    return 0.5 * length(minus(capsule.to, capsule.from)) + std::ranges::max(capsule.radii);
+    return std::visit(ForEachKind{[](const Plane&) { return std::numeric_limits<double>::infinity(); },
+                                  [](const Sphere& sphere) { return sphere.radius; },
+                                  [](const Box& box) { return length(box.half_extents); },
+                                  [](const Ellipsoid& ellipsoid) { return std::ranges::max(ellipsoid.radii); },
+                                  [](const Capsule& capsule) {
+                                      return 0.5 * length(minus(capsule.to, capsule.from)) +
+                                             std::ranges::max(capsule.radii);
+                                  },
+                                  [](const Mesh& mesh) { return length(mesh.shape->half_extents()); }},
+                      shape);
 }
 
-/// A shape about the origin.
+double draw_side(double size, Dice& dice) { return size * dice.log_uniform(0.25, 1); }
+
+Vec3 draw_sides(double size, Dice& dice) {
+    const double x = draw_side(size, dice), y = draw_side(size, dice), z = draw_side(size, dice);
+    return {x, y, z};
+}
+
+/// Draws a shape about the origin.
+using DrawShape = ColliderShape (*)(double size, Dice& dice);
+ColliderShape draw_sphere(double size, Dice& dice) { return Sphere{{}, draw_side(size, dice)}; }
+ColliderShape draw_box(double size, Dice& dice) { return Box{{}, draw_sides(size, dice)}; }
+ColliderShape draw_ellipsoid(double size, Dice& dice) { return Ellipsoid{{}, draw_sides(size, dice)}; }
+ColliderShape draw_capsule(double size, Dice& dice) {
+    const double length = draw_side(size, dice);
+    const Vec3 half = times(length, dice.direction());
+    const double from = 0.5 * draw_side(size, dice), to = 0.5 * draw_side(size, dice);
+    return Capsule{times(-1, half), half, {from, to}};
+}
+/// In the order of the kinds. `add_plane` draws planes, and a mesh is a file.
+constexpr DrawShape shape_drawings[] = {nullptr, draw_sphere, draw_box, draw_ellipsoid, draw_capsule, nullptr};
+static_assert(std::size(shape_drawings) == std::variant_size_v<ColliderShape>);
+
 ColliderShape draw_solid(double size, Dice& dice) {
-    const auto side = [&] { return size * dice.log_uniform(0.25, 1); };
-    switch (dice.below(4)) {
-        case 0:
-            return Sphere{{}, side()};
-        case 1: {
-            const double x = side(), y = side(), z = side();
-            return Box{{}, {x, y, z}};
-        }
-        case 2: {
-            const double x = side(), y = side(), z = side();
-            return Ellipsoid{{}, {x, y, z}};
-        }
-        default: {
-            const double length = side();
-            const Vec3 half = times(length, dice.direction());
-            const double from = 0.5 * side(), to = 0.5 * side();
-            return Capsule{times(-1, half), half, {from, to}};
-        }
-    }
+    std::vector<DrawShape> drawn;
+    for (const DrawShape draw : shape_drawings)
+        if (draw) drawn.push_back(draw);
+    return drawn[dice.below(static_cast<std::uint32_t>(drawn.size()))](size, dice);
 }
 
+/// Moves a shape that is about the origin.
 void move_to(ColliderShape& shape, const Vec3& place) {
-    if (auto* sphere = std::get_if<Sphere>(&shape)) sphere->center = place;
-    if (auto* box = std::get_if<Box>(&shape)) box->center = place;
-    if (auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) ellipsoid->center = place;
-    if (auto* capsule = std::get_if<Capsule>(&shape)) {
-        capsule->from = along(capsule->from, 1, place);
-        capsule->to = along(capsule->to, 1, place);
-    }
+    std::visit(
+        ForEachKind{[](Plane&) {}, [&](Sphere& sphere) { sphere.center = place; },
+                    [&](Box& box) { box.center = place; }, [&](Ellipsoid& ellipsoid) { ellipsoid.center = place; },
+                    [&](Capsule& capsule) {
+                        capsule.from = along(capsule.from, 1, place);
+                        capsule.to = along(capsule.to, 1, place);
+                    },
+                    [&](Mesh& mesh) { mesh.position = place; }},
+        shape);
 }
 
 bool clear_of(const std::vector<Cloth>& cloths, const Ball& ball) {
