@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/companions.h"
 #include "cloth/method.h"
 #include "cloth/rungs.h"
 #include "world/cloth_keys.h"
