@@ -41,7 +41,7 @@ struct ClothGeometry {
     Placement placement;
     bool is_given;                          ///< the start is a given shape, not the placed one
     double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column
-    double spacing[2];                      ///< m along columns, rows
+    std::array<double, 2> spacing;          ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
     double damping;                         ///< 1/s
     Vec3 velocity;                          ///< m/s at the start, of all particles

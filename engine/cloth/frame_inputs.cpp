@@ -24,6 +24,8 @@ namespace {
 
 template <int kind>
 using Shape = std::variant_alternative_t<kind, ColliderShape>;
+static_assert(std::variant_size_v<ColliderShape> == glsl::collider_kind_count,
+              "shaders/shared/collider_types.h has another number of kinds");
 static_assert(std::is_same_v<Shape<glsl::kind_plane>, Plane> && std::is_same_v<Shape<glsl::kind_sphere>, Sphere> &&
               std::is_same_v<Shape<glsl::kind_box>, Box> && std::is_same_v<Shape<glsl::kind_ellipsoid>, Ellipsoid> &&
               std::is_same_v<Shape<glsl::kind_capsule>, Capsule> && std::is_same_v<Shape<glsl::kind_mesh>, Mesh>);
@@ -49,7 +51,7 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
                                      std::size_t field) {
     const ColliderPose pose = collider_pose(collider, now);
     Vec3 size = shape_geometry(collider.shape).size;
-    if (collider.kind() == glsl::kind_plane) size = rotate(pose.rotation, size);
+    if (special(collider.shape).plane) size = rotate(pose.rotation, size);
     glsl::ColliderRecord record{
         row(pose.rotation, 0, pose.center[0]),
         row(pose.rotation, 1, pose.center[1]),
@@ -70,7 +72,7 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
         record.change_z = row(change.rotation, 2, change.center[2]);
         record.way_out.w = surface_motion(change, shape_geometry(collider.shape).reach);
     }
-    if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
+    if (const Mesh* mesh = special(collider.shape).mesh) {
         record.way_out.x = static_cast<float>(field);
         record.way_out.y = static_cast<float>(mesh->grown);
     }

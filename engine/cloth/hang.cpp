@@ -15,7 +15,7 @@ constexpr double wind_share = 0.3;
 /// Returns the largest straight distance of a particle from the nearest pin, m, on the flat cloth, sampled; half the
 /// size without pins.
 double hanging_length(const Cloth& cloth) {
-    const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     if (cloth.pins.empty()) return 0.5 * std::max(cloth.size[0], cloth.size[1]);
     constexpr std::uint32_t samples = 33;
     double longest = 0;
@@ -80,14 +80,14 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
     Hang hang{};
     hang.length = hanging_length(cloth);
-    hang.spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    hang.spacing = least_spacing(cloth);
     const double wind_speed = length(strongest_wind(scene.wind)) + scene.wind.gust.amplitude;
     hang.gravity = length(strongest_gravity(scene));
     hang.acceleration = hang.gravity + wind_acceleration(scene, cloth, wind_speed);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && !scene.comes_apart();
     hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && !scene.comes_apart();
-    hang.edge_spacing = cloth.size[axis == 0 ? 0 : 1] / (cloth.grid[axis == 0 ? 0 : 1] - 1);
+    hang.edge_spacing = grid_spacing(cloth)[axis == 0 ? 0 : 1];
     hang.calm = hang.by_an_edge && !has_weather(scene);
     hang.particle_count = std::size_t{cloth.grid[0]} * cloth.grid[1];
     return hang;

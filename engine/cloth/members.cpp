@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "world/cloth_keys.h"
 #include "world/weather.h"
 
 namespace drape {
@@ -54,26 +55,56 @@ std::string pins(const std::vector<Pin>& pins) {
     return boxes(held) + moves;
 }
 
-Difference cloth_difference(const std::string& at, const Cloth& first, const Cloth& other) {
+/// Returns why two cloths, for all that one key says, are not of one shape.
+Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& first, const Cloth& other) {
+    const std::string pointer = fmt::format("{}{}", at, pointer_of(key));
     const auto grid = [](const Cloth& cloth) { return fmt::format("{} x {}", cloth.grid[0], cloth.grid[1]); };
     const auto text = [](bool is) { return std::string(is ? "true" : "false"); };
     const auto there = [](bool is) { return std::string(is ? "there" : "absent"); };
-    for (const Difference& found :
-         {differ(at + "/name", first.name, other.name), differ(at + "/grid", grid(first), grid(other)),
-          differ(at + "/holes", boxes(first.holes), boxes(other.holes)),
-          map_difference(at + "/maps/stiffness", first.cell_stiffness, other.cell_stiffness),
-          map_difference(at + "/maps/density", first.cell_density, other.cell_density),
-          map_difference(at + "/maps/friction", first.particle_friction, other.particle_friction),
-          map_difference(at + "/maps/thickness", first.particle_thickness, other.particle_thickness),
-          differ(at + "/pins", pins(first.pins), pins(other.pins)),
-          differ(at + "/stiffness_keys", there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty())),
-          differ(at + "/stiffness/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid)),
-          differ(at + "/rest", spelling(rest_spellings, first.rest), spelling(rest_spellings, other.rest)),
-          differ(at + "/contact", spelling(contact_spellings, first.contact),
-                 spelling(contact_spellings, other.contact)),
-          differ(at + "/self_collision", there(first.self_collision.has_value()),
-                 there(other.self_collision.has_value()))})
-        if (found) return found;
+    switch (key) {
+        case ClothKey::name:
+            return differ(pointer, first.name, other.name);
+        case ClothKey::grid:
+            return differ(pointer, grid(first), grid(other));
+        case ClothKey::holes:
+            return differ(pointer, boxes(first.holes), boxes(other.holes));
+        case ClothKey::cell_stiffness:
+            return map_difference(pointer, first.cell_stiffness, other.cell_stiffness);
+        case ClothKey::cell_density:
+            return map_difference(pointer, first.cell_density, other.cell_density);
+        case ClothKey::particle_friction:
+            return map_difference(pointer, first.particle_friction, other.particle_friction);
+        case ClothKey::particle_thickness:
+            return map_difference(pointer, first.particle_thickness, other.particle_thickness);
+        case ClothKey::pins:
+            return differ(pointer, pins(first.pins), pins(other.pins));
+        case ClothKey::stiffness_keys:
+            return differ(pointer, there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty()));
+        case ClothKey::stiffness:
+            return differ(pointer + "/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid));
+        case ClothKey::rest:
+            return differ(pointer, spelling(rest_spellings, first.rest), spelling(rest_spellings, other.rest));
+        case ClothKey::contact:
+            return differ(pointer, spelling(contact_spellings, first.contact),
+                          spelling(contact_spellings, other.contact));
+        case ClothKey::self_collision:
+            return differ(pointer, there(first.self_collision.has_value()), there(other.self_collision.has_value()));
+        // Numbers of each member's own.
+        case ClothKey::size:
+        case ClothKey::placement:
+        case ClothKey::start:
+        case ClothKey::areal_density:
+        case ClothKey::damping:
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::velocity:
+        case ClothKey::velocities:
+        case ClothKey::appearance:
+        // sharing_obstacle knows what tears.
+        case ClothKey::tear:
+        case ClothKey::cell_tear:
+            return std::nullopt;
+    }
     return std::nullopt;
 }
 
@@ -104,7 +135,9 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
                             fmt::format("a list of {}", other.cloths.size())))
         return found;
     for (std::size_t k = 0; k < first.cloths.size(); ++k)
-        if (auto found = cloth_difference(fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k])) return found;
+        for (const ClothKey key : cloth_keys)
+            if (auto found = cloth_difference(key, fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k]))
+                return found;
     for (const Difference& found :
          {differ("/time/fps", first.time.fps, other.time.fps),
           differ("/colliders", kinds(first.colliders), kinds(other.colliders)),

@@ -128,7 +128,7 @@ MeshFields::MeshFields(const SceneDescription& scene) {
     std::vector<glsl::vec4> texels;
     std::size_t points = 0;
     for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
-        const Mesh* mesh = std::get_if<Mesh>(&scene.colliders[k].shape);
+        const Mesh* mesh = special(scene.colliders[k].shape).mesh;
         if (!mesh) continue;
         if (!mesh->shape) throw Error("a mesh among the colliders was not read (read_file of drape/scene_reader.h)");
         const FieldPlan plan = field_plan(scene, scene.colliders[k]);

@@ -86,8 +86,8 @@ double explicit_substeps(const Hang& hang, double frame, double tolerance, const
     return std::sqrt(motion_factor(hang) * law / tolerance);
 }
 
-RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
-                                     double substep_length, double strain_damping) {
+RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const std::array<double, 2>& spacing,
+                                     double inner_mass, double substep_length, double strain_damping) {
     const double scale = substep_length * substep_length / inner_mass;
     const double diagonal_squared = spacing[0] * spacing[0] + spacing[1] * spacing[1];
     RelativeStiffness used;

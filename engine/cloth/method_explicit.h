@@ -21,8 +21,8 @@ struct RelativeStiffness {
 /// S (1 + 2 kappa) + Q/2 <= 0.45. The cells' own eigenvalues bound those of any assembly of them (borders, holes,
 /// cuts); flat cloth would be stable up to S (1 + 2 kappa) + Q = 1, hugely stretched cloth, whose springs resist in
 /// every direction, up to half of that.
-RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const double (&spacing)[2], double inner_mass,
-                                     double substep_length, double strain_damping);
+RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const std::array<double, 2>& spacing,
+                                     double inner_mass, double substep_length, double strain_damping);
 
 MethodScheme explicit_scheme(const ClothGeometry& cloth, const MethodSettings& settings);
 

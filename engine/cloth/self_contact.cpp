@@ -15,14 +15,14 @@ double search_margin(double spacing, double thickness) { return std::max(0.2 * s
 
 /// Returns the spacings, m, along columns and rows of a flat cloth whose particles are no farther apart than those of
 /// this one at rest.
-std::array<double, 2> least_spacing(const ClothModel& model) {
+std::array<double, 2> densest_spacing(const ClothModel& model) {
     float least = 1;
     for (const glsl::vec4& scales : model.rest_scales)
         least = std::min({least, scales.x, scales.y, scales.z, scales.w});
     return {least * model.spacing[0], least * model.spacing[1]};
 }
 
-double smaller_spacing(const ClothModel& model) { return std::ranges::min(least_spacing(model)); }
+double smaller_spacing(const ClothModel& model) { return std::ranges::min(densest_spacing(model)); }
 
 int top_level(glsl::ivec2 grid) {
     int level = 0;
@@ -48,7 +48,7 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     const double spacing = smaller_spacing(model);
     glsl::SelfCloth constants{};
     constants.grid = model.grid.size();
-    const auto [dx, dy] = least_spacing(model);
+    const auto [dx, dy] = densest_spacing(model);
     constants.spacing = {static_cast<float>(dx), static_cast<float>(dy)};
     constants.thickness = layer_thickness(cloth, spacing);
     constants.friction = static_cast<float>(friction_of(cloth));

@@ -8,6 +8,7 @@
 #include "cloth/companions.h"
 #include "cloth/method.h"
 #include "cloth/rungs.h"
+#include "world/cloth_keys.h"
 #include "world/contact_shape.h"
 #include "world/weather.h"
 
@@ -38,6 +39,49 @@ double swing_substep(const SceneDescription& scene, const Cloth& cloth) {
     return longest_substep * std::sqrt(std::max(cloth.size[0], cloth.size[1]) / gravity);  // infinite without gravity
 }
 
+/// Takes out of a cloth what a key says of single particles or cells of its grid.
+void leave_out_particles(ClothKey key, Cloth& cloth) {
+    switch (key) {
+        case ClothKey::pins:
+            return cloth.pins.clear();
+        case ClothKey::holes:
+            return cloth.holes.clear();
+        case ClothKey::start:
+            return cloth.start.clear();
+        case ClothKey::rest:  // at the start, whose places are gone
+            cloth.rest = Rest::flat;
+            return;
+        case ClothKey::velocities:
+            return cloth.velocities.clear();
+        case ClothKey::cell_stiffness:
+            return cloth.cell_stiffness.clear();
+        case ClothKey::cell_density:
+            return cloth.cell_density.clear();
+        case ClothKey::cell_tear:
+            return cloth.cell_tear.clear();
+        case ClothKey::particle_friction:
+            return cloth.particle_friction.clear();
+        case ClothKey::particle_thickness:
+            return cloth.particle_thickness.clear();
+        case ClothKey::name:
+        case ClothKey::grid:
+        case ClothKey::size:
+        case ClothKey::placement:
+        case ClothKey::areal_density:
+        case ClothKey::stiffness:
+        case ClothKey::stiffness_keys:
+        case ClothKey::damping:
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::contact:
+        case ClothKey::self_collision:
+        case ClothKey::velocity:
+        case ClothKey::tear:
+        case ClothKey::appearance:
+            return;
+    }
+}
+
 /// Returns the substeps that follow what the method must follow of the cloth, at least `substeps`. Compliances fall
 /// with the square of the substeps, so one look tells.
 std::uint32_t following_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
@@ -47,14 +91,7 @@ std::uint32_t following_substeps(const Method& method, const SceneDescription& s
         small.grid[axis] = std::min(cloth.grid[axis], 4u);
         small.size[axis] = cloth.size[axis] * (small.grid[axis] - 1) / (cloth.grid[axis] - 1);
     }
-    small.pins.clear();
-    small.holes.clear();
-    small.start.clear();
-    small.velocities.clear();
-    small.cell_stiffness.clear();
-    small.cell_density.clear();
-    small.particle_friction.clear();
-    small.particle_thickness.clear();
+    for (const ClothKey key : cloth_keys) leave_out_particles(key, small);
     const MethodSettings settings{substeps,
                                   1,
                                   1 / (scene.time.fps * substeps),

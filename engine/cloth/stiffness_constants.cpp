@@ -4,7 +4,7 @@
 
 namespace drape {
 
-StiffnessConstants stiffness_constants(const Stiffness& stiffness, const double (&spacing)[2]) {
+StiffnessConstants stiffness_constants(const Stiffness& stiffness, const std::array<double, 2>& spacing) {
     const double dx = spacing[0], dy = spacing[1];
     const double stretch = stiffness.rigid ? rigid_stiffness : stiffness.stretch;
     const double shear = stiffness.rigid ? rigid_stiffness : stiffness.shear;

@@ -20,6 +20,6 @@ struct StiffnessConstants {
 };
 
 /// Returns those on cells of spacing[0] x spacing[1] metres.
-StiffnessConstants stiffness_constants(const Stiffness& stiffness, const double (&spacing)[2]);
+StiffnessConstants stiffness_constants(const Stiffness& stiffness, const std::array<double, 2>& spacing);
 
 }  // namespace drape

@@ -187,7 +187,7 @@ std::array<double, 2> thread_limit(const Cloth& cloth, const Grid& grid, const T
 }  // namespace
 
 std::vector<glsl::vec4> tear_limits(const Cloth& cloth, const Grid& grid) {
-    const std::array<double, 2> spacing{cloth.size[0] / (grid.columns() - 1), cloth.size[1] / (grid.rows() - 1)};
+    const std::array<double, 2> spacing = grid_spacing(cloth);
     std::vector<glsl::vec4> limits;
     limits.reserve(grid.particle_count());
     for (int row = 0; row < grid.size().y; ++row)

@@ -22,7 +22,7 @@ struct Nearest {
 using Field = std::vector<Nearest>;
 
 /// A box's nearest particle is the one that its limits clamp to; a pin that overrides this one there holds it too.
-Field straight_distances(const Grid& grid, const double (&spacing)[2], const IndexBox& box) {
+Field straight_distances(const Grid& grid, const std::array<double, 2>& spacing, const IndexBox& box) {
     Field field;
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
@@ -38,7 +38,7 @@ Field straight_distances(const Grid& grid, const double (&spacing)[2], const Ind
 }
 
 /// Finds Dijkstra's shortest paths from all of the box's particles along the springs that exist.
-Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBox& box,
+Field path_distances(const Grid& grid, const std::array<double, 2>& spacing, const IndexBox& box,
                      const std::vector<glsl::vec4>& rest_scales) {
     Field field(grid.particle_count());
     using Entry = std::pair<double, std::uint32_t>;
@@ -83,7 +83,7 @@ Field path_distances(const Grid& grid, const double (&spacing)[2], const IndexBo
 
 }  // namespace
 
-std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const double (&spacing)[2],
+std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const std::array<double, 2>& spacing,
                                                 const std::vector<Pin>& pins, double give,
                                                 const std::vector<glsl::vec4>& rest_scales) {
     std::vector<std::array<Nearest, 2>> nearest(grid.particle_count());

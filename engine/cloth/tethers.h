@@ -1,6 +1,7 @@
 // Tethers (long-range attachments) tell which held particles a free one hangs on, and how far it may be from them.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "cloth/grid.h"
@@ -13,7 +14,7 @@ namespace drape {
 /// with `rest_scales` (of the cloth's geometry) it is the shortest path along rows, columns and diagonals (on flat
 /// cloth up to 8 % longer than the true one, so never too short). `spacing` is m along columns and rows. There are none
 /// without pins, or out of their reach.
-std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const double (&spacing)[2],
+std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const std::array<double, 2>& spacing,
                                                 const std::vector<Pin>& pins, double give,
                                                 const std::vector<glsl::vec4>& rest_scales = {});
 

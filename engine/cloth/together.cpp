@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "world/cloth_keys.h"
 #include "world/contact_shape.h"
 
 namespace drape {
@@ -14,11 +15,82 @@ namespace {
 /// A cloth of more particles keeps its own dispatches, which cost little beside what they do (docs/devices.md).
 constexpr std::uint64_t most_particles = 128 * 128;
 
-bool have_same_shape(const Cloth& one, const Cloth& other) {
-    return one.stiffness_keys.empty() && other.stiffness_keys.empty() && one.grid == other.grid &&
-           one.holes == other.holes && one.cell_stiffness == other.cell_stiffness &&
-           one.cell_density == other.cell_density && one.rest == other.rest &&
-           one.self_collision.has_value() == other.self_collision.has_value() && has_skin(one) == has_skin(other);
+/// Returns whether two cloths can take the same dispatches, for all that one key says.
+bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
+    switch (key) {
+        case ClothKey::grid:
+            return one.grid == other.grid;
+        case ClothKey::holes:
+            return one.holes == other.holes;
+        case ClothKey::rest:
+            return one.rest == other.rest;
+        case ClothKey::cell_stiffness:
+            return one.cell_stiffness == other.cell_stiffness;
+        case ClothKey::cell_density:
+            return one.cell_density == other.cell_density;
+        case ClothKey::stiffness_keys:  // the factor of a frame is given to one cloth at a time
+            return one.stiffness_keys.empty() && other.stiffness_keys.empty();
+        case ClothKey::self_collision:
+            return one.self_collision.has_value() == other.self_collision.has_value();
+        case ClothKey::particle_friction:
+        case ClothKey::particle_thickness:
+            return has_skin(one) == has_skin(other);
+        // Each cloth has numbers and images of its own; what decides its steps, cloths_together compares.
+        case ClothKey::name:
+        case ClothKey::size:
+        case ClothKey::placement:
+        case ClothKey::start:
+        case ClothKey::areal_density:
+        case ClothKey::stiffness:
+        case ClothKey::damping:
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::contact:
+        case ClothKey::velocity:
+        case ClothKey::velocities:
+        case ClothKey::pins:
+        case ClothKey::appearance:
+            return true;
+        // No cloths of a scene where one tears are together.
+        case ClothKey::tear:
+        case ClothKey::cell_tear:
+            return true;
+    }
+    return false;
+}
+
+/// Returns whether a key is about looks or about what a cloth's state holds at the start.
+bool is_in_state(ClothKey key) {
+    switch (key) {
+        case ClothKey::name:
+        case ClothKey::placement:
+        case ClothKey::start:
+        case ClothKey::velocity:
+        case ClothKey::velocities:
+        case ClothKey::pins:
+        case ClothKey::appearance:
+            return true;
+        case ClothKey::grid:
+        case ClothKey::size:
+        case ClothKey::rest:
+        case ClothKey::areal_density:
+        case ClothKey::stiffness:
+        case ClothKey::stiffness_keys:
+        case ClothKey::damping:
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::contact:
+        case ClothKey::self_collision:
+        case ClothKey::holes:
+        case ClothKey::cell_stiffness:
+        case ClothKey::cell_density:
+        case ClothKey::tear:
+        case ClothKey::cell_tear:
+        case ClothKey::particle_friction:
+        case ClothKey::particle_thickness:
+            return false;
+    }
+    return false;
 }
 
 float sign(float number) { return number > 0 ? 1.0f : 0.0f; }
@@ -245,15 +317,9 @@ bool members_meet(const SimulationModel& model) { return model.member_count > 1 
 }  // namespace
 
 bool have_same_numbers(const Cloth& one, const Cloth& other) {
-    Cloth same = other;
-    same.name = one.name;
-    same.placement = one.placement;
-    same.start = one.start;
-    same.velocity = one.velocity;
-    same.velocities = one.velocities;
-    same.pins = one.pins;
-    same.appearance = one.appearance;
-    return same == one;
+    const auto differs = differences(one, other);
+    return std::ranges::all_of(
+        cloth_keys, [&](ClothKey key) { return is_in_state(key) || !differs[static_cast<std::size_t>(key)]; });
 }
 
 std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene) {
@@ -264,7 +330,10 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
     for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
         const Cloth& cloth = scene.cloths[k];
         if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) continue;
-        put(k, lists, [&](std::size_t first, std::size_t) { return have_same_shape(scene.cloths[first], cloth); });
+        put(k, lists, [&](std::size_t first, std::size_t) {
+            return std::ranges::all_of(cloth_keys,
+                                       [&](ClothKey key) { return have_same_shape(key, scene.cloths[first], cloth); });
+        });
     }
     std::erase_if(lists, [](const std::vector<std::size_t>& list) { return list.size() == 1; });
     return lists;

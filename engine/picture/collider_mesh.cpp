@@ -72,11 +72,12 @@ void append_corners(const MeshShape& mesh, std::vector<glsl::MeshCorner>& corner
 void add_meshes(const std::vector<Collider>& colliders, std::uint32_t instance, std::vector<ColliderDraw>& draws) {
     std::uint32_t vertex = 0;
     for (const Collider& collider : colliders) {
-        const Mesh* mesh = std::get_if<Mesh>(&collider.shape);
+        const Mesh* mesh = special(collider.shape).mesh;
         if (!mesh) continue;
         const auto count = static_cast<std::uint32_t>(3 * mesh->shape->triangles().size());
         draws.push_back({.kind = glsl::kind_mesh,
                          .vertex_count = count,
+                         .has_corners = true,
                          .first_vertex = vertex,
                          .first_instance = instance++,
                          .instance_count = 1,
@@ -124,26 +125,12 @@ std::uint32_t round_columns(double radius) {
 
 double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height) {
     const ShapeGeometry shape = shape_geometry(collider.shape);
-    const Vec3& size = shape.size;
-    double radius = 0;
-    switch (collider.kind()) {
-        case glsl::kind_sphere:
-            radius = size[0];
-            break;
-        case glsl::kind_ellipsoid:
-            radius = std::ranges::max(size);
-            break;
-        case glsl::kind_capsule:
-            radius = std::max(size[1], size[2]);
-            break;
-        default:
-            return 0;
-    }
+    if (shape.roundness == 0) return 0;
     const Vec3 center = collider_pose(collider, time).center, eye = camera.position;
     const double nearest = std::hypot(center[0] - eye[0], center[1] - eye[1], center[2] - eye[2]) - shape.reach;
     const double pixels =
         0.5 * height / std::tan(0.5 * camera.fov * std::numbers::pi / 180);  // pixels of what is as long as it is far
-    return nearest > 0 ? radius / nearest * pixels : std::numeric_limits<double>::infinity();
+    return nearest > 0 ? shape.roundness / nearest * pixels : std::numeric_limits<double>::infinity();
 }
 
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns) {
@@ -152,14 +139,20 @@ std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders,
     for (const int kind : drawing_order) {
         const auto count = static_cast<std::uint32_t>(std::ranges::count(colliders, kind, &Collider::kind));
         if (count == 0) continue;
-        if (kind == glsl::kind_mesh) {
+        const SpecialShape shape = special(std::ranges::find(colliders, kind, &Collider::kind)->shape);
+        if (shape.mesh) {
             add_meshes(colliders, first, draws);
             first += count;
             continue;
         }
         const std::uint32_t around = columns[static_cast<std::size_t>(kind)];
         const auto vertex_count = static_cast<std::uint32_t>(glsl::mesh_vertex_count(kind, static_cast<int>(around)));
-        draws.push_back({kind, around, vertex_count, 0, first, count, kind != glsl::kind_plane});
+        draws.push_back({.kind = kind,
+                         .round_columns = around,
+                         .vertex_count = vertex_count,
+                         .first_instance = first,
+                         .instance_count = count,
+                         .casts_shadow = !shape.plane});
         first += count;
     }
     return draws;
@@ -168,8 +161,7 @@ std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders,
 std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders, double time) {
     std::vector<glsl::MeshCorner> corners;
     for (const Collider& collider : colliders)
-        if (std::holds_alternative<Mesh>(collider.shape))
-            append_corners(*std::get<Mesh>(formed(collider, time).shape).shape, corners);
+        if (special(collider.shape).mesh) append_corners(*std::get<Mesh>(formed(collider, time).shape).shape, corners);
     return corners;
 }
 
@@ -179,7 +171,7 @@ std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collide
     for (const int kind : drawing_order)
         for (const Collider& collider : colliders) {
             if (collider.kind() != kind) continue;
-            instances.push_back(kind == glsl::kind_plane
+            instances.push_back(special(collider.shape).plane
                                     ? plane_instance(collider, extent, time)
                                     : instance(collider_pose(collider, time),
                                                vec4(shape_geometry(collider.shape).size, 0), collider.color));

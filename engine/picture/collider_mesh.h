@@ -19,6 +19,7 @@ struct ColliderDraw {
     int kind = glsl::kind_plane;
     std::uint32_t round_columns = glsl::most_round_columns;
     std::uint32_t vertex_count = 0;
+    bool has_corners = false;        ///< it is a mesh, whose vertices are in a buffer
     std::uint32_t first_vertex = 0;  ///< of a mesh
     std::uint32_t first_instance = 0, instance_count = 0;
     bool casts_shadow = false;

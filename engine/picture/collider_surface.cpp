@@ -32,15 +32,15 @@ class Joined {
     std::size_t corners_ = 0;
 };
 
-/// The last column is the first one, and a pole is one vertex.
-ColliderSurface round_surface(int kind, const glsl::vec3& size, int columns) {
+/// Joins what `vertex_of` makes of corners and columns. The last column is the first one, and a pole is one vertex.
+template <class VertexOf>
+ColliderSurface round_surface(int kind, int columns, const VertexOf& vertex_of) {
     Joined<std::array<int, 2>> joined;
     for (int vertex = 0; vertex < glsl::mesh_vertex_count(kind, columns); ++vertex) {
         glsl::ivec2 corner = glsl::round_corner(columns, vertex);
         const bool is_pole = corner.y == 0 || corner.y == columns / 2;
         corner.x = is_pole ? 0 : corner.x % columns;
-        glsl::vec3 place = kind == glsl::kind_capsule ? glsl::capsule_vertex(size, corner, columns).position
-                                                      : glsl::ellipsoid_vertex(size, corner, columns).position;
+        glsl::vec3 place = vertex_of(corner, columns).position;
         if (is_pole) place.x = place.z = 0;  // the sine of the float next to pi is not 0
         joined.add({corner.x, corner.y}, place);
     }
@@ -57,7 +57,7 @@ ColliderSurface box_surface(const glsl::vec3& half_extents) {
 }
 
 /// The quad's triangles, which pictures draw from both sides, turn clockwise seen along the normal.
-ColliderSurface plane_surface(const Collider& plane, const PlaneSquare& square) {
+ColliderSurface square_surface(const Collider& plane, const PlaneSquare& square) {
     const ColliderPose pose = plane_pose(plane, 0);
     const auto& r = pose.rotation;
     const Vec3 to_center = minus(square.center, pose.center);
@@ -80,20 +80,33 @@ PlaneSquare plane_square(const SceneDescription& scene) {
 }
 
 ColliderSurface collider_surface(const Collider& collider, int columns, const PlaneSquare& square) {
-    if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape))
-        return {mesh->shape->vertices(), mesh->shape->triangles()};
-    if (collider.kind() == glsl::kind_plane) return plane_surface(collider, square);
     const Vec3 extents = shape_geometry(collider.shape).size;
     const glsl::vec3 size{static_cast<float>(extents[0]), static_cast<float>(extents[1]),
                           static_cast<float>(extents[2])};
-    if (collider.kind() == glsl::kind_box) return box_surface(size);
-    if (collider.kind() == glsl::kind_sphere)
-        return round_surface(glsl::kind_sphere, {size.x, size.x, size.x}, columns);
-    return round_surface(collider.kind(), size, columns);
+    const auto ellipsoid = [&](const glsl::vec3& radii) {
+        return round_surface(collider.kind(), columns, [&](const glsl::ivec2& corner, int around) {
+            return glsl::ellipsoid_vertex(radii, corner, around);
+        });
+    };
+    return std::visit(
+        ForEachKind{[&](const Plane&) { return square_surface(collider, square); },
+                    [&](const Sphere&) {
+                        return ellipsoid({size.x, size.x, size.x});
+                    },
+                    [&](const Box&) { return box_surface(size); }, [&](const Ellipsoid&) { return ellipsoid(size); },
+                    [&](const Capsule&) {
+                        return round_surface(collider.kind(), columns, [&](const glsl::ivec2& corner, int around) {
+                            return glsl::capsule_vertex(size, corner, around);
+                        });
+                    },
+                    [](const Mesh& mesh) {
+                        return ColliderSurface{mesh.shape->vertices(), mesh.shape->triangles()};
+                    }},
+        collider.shape);
 }
 
 ColliderPose surface_pose(const Collider& collider, double time) {
-    return collider.kind() == glsl::kind_plane ? plane_pose(collider, time) : collider_pose(collider, time);
+    return special(collider.shape).plane ? plane_pose(collider, time) : collider_pose(collider, time);
 }
 
 }  // namespace drape

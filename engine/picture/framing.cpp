@@ -62,7 +62,7 @@ void add_cloth(const Cloth& cloth, const std::vector<Collider>& colliders, Bound
         bounds.add(point, swing);
         for (const Pin& pin : cloth.pins) bounds.add(point, 0, pin.path);
         for (const Collider& collider : colliders)
-            if (const Plane* plane = std::get_if<Plane>(&collider.shape)) bounds.add(landed(point, *plane), swing);
+            if (const Plane* plane = special(collider.shape).plane) bounds.add(landed(point, *plane), swing);
     }
 }
 
@@ -105,8 +105,8 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
         point[up] = height;
         return point;
     };
-    const bool lands_on_bodies = std::ranges::any_of(
-        scene.colliders, [](const Collider& collider) { return !std::holds_alternative<Plane>(collider.shape); });
+    const bool lands_on_bodies =
+        std::ranges::any_of(scene.colliders, [](const Collider& collider) { return !special(collider.shape).plane; });
     for (const Cloth& cloth : scene.cloths) {
         for (const ClothPoint& each : outline(cloth)) {
             const Vec3& corner = each.at;

@@ -17,7 +17,7 @@ inline Vec3 sum(const Vec3& a, const Vec3& b, double scale = 1) {
 inline std::optional<double> floor_below(const std::vector<Collider>& colliders, double height, std::size_t up) {
     std::optional<double> found;
     for (const Collider& collider : colliders) {
-        const Plane* plane = std::get_if<Plane>(&collider.shape);
+        const Plane* plane = special(collider.shape).plane;
         if (!plane || plane->normal[up] < 0.99 || collider.rotate != Vec3{0, 0, 0}) continue;
         const double level = plane->offset / plane->normal[up];
         if (level <= height && (!found || level > *found)) found = level;

@@ -7,7 +7,6 @@
 
 #include "picture/camera.h"
 #include "picture/picture_places.h"
-#include "shared/collider_types.h"
 #include "world/collider_pose.h"
 
 namespace drape {
@@ -20,9 +19,9 @@ using Corners = std::array<std::array<double, 2>, 2>;
 /// show it anywhere.
 std::optional<Corners> bounds_of(const Collider& body, double time, const Camera& camera, std::uint32_t width,
                                  std::uint32_t height) {
-    if (body.kind() == glsl::kind_plane) return std::nullopt;
-    const Vec3 center = collider_pose(body, time).center;
     const double reach = shape_geometry(body.shape).reach;
+    if (!std::isfinite(reach)) return std::nullopt;
+    const Vec3 center = collider_pose(body, time).center;
     Corners bounds{{{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}};
     for (unsigned corner = 0; corner < 8; ++corner) {
         const auto side = [&](unsigned axis) { return corner >> axis & 1u ? reach : -reach; };

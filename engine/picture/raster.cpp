@@ -194,7 +194,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
     state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
-        const bool mesh = range.kind == glsl::kind_mesh;
+        const bool mesh = range.has_corners;
         state.vertex = {vulkan::variant_name("collider.vert", {{"mesh", mesh}})};
         shadow_state.vertex = {vulkan::variant_name("shadow_collider.vert", {{"mesh", mesh}})};
         shadow_state.constants.clear();
@@ -425,7 +425,7 @@ void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets
     for (const Draw& draw : draws) {
         std::vector<graph::Binding> bound = shared;
         bound.push_back({"colliders", targets.colliders});
-        if (draw.range.kind == glsl::kind_mesh) bound.push_back({"mesh_corners", targets.meshes});
+        if (draw.range.has_corners) bound.push_back({"mesh_corners", targets.meshes});
         context.bind(*draw.pipeline, bound);
         draw_colliders(context, draw.range);
     }

@@ -160,9 +160,10 @@ PlaneExtent plane_extent(const Camera& camera, const BoundingSphere& extent) {
 std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, const Camera& camera) {
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const Collider& collider = colliders[i];
-        if (collider.kind() != glsl::kind_plane || !collider.path.keys.empty()) continue;
+        const Plane* plane = special(collider.shape).plane;
+        if (!plane || !collider.path.keys.empty()) continue;
         const ColliderPose pose = collider_pose(collider, 0);
-        const Vec3 normal = rotate(pose.rotation, std::get<Plane>(collider.shape).normal);
+        const Vec3 normal = rotate(pose.rotation, plane->normal);
         const double height = dot(normal, sum(camera.position, pose.center, -1));
         // Seen from lower down its pixels would be drawn from too few digits.
         if (height > 1e-3 * length(sum(camera.position, camera.target, -1))) return i;

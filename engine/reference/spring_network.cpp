@@ -6,6 +6,7 @@
 
 #include "cloth/grid.h"
 #include "reference/stable_hash.h"
+#include "world/cloth_keys.h"
 #include "world/motion.h"
 #include "world/start.h"
 #include "world/weather.h"
@@ -29,15 +30,50 @@ double bending_share(bool left_above, bool right_above, bool left_below, bool ri
     return 0.5 * (left_above && right_above) + 0.5 * (left_below && right_below);
 }
 
+/// Returns what of a key's value the network cannot follow; null: it has it, or it is not about springs and air.
+const char* unsupported(ClothKey key, const Cloth& cloth) {
+    switch (key) {
+        case ClothKey::stiffness:
+            return cloth.stiffness.rigid ? "rigid springs have no energy to refer to" : nullptr;
+        case ClothKey::stiffness_keys:
+            return cloth.stiffness_keys.empty() ? nullptr
+                                                : "the double-precision reference knows no stiffness that changes";
+        case ClothKey::rest:
+            return cloth.rest == Rest::start && cloth.stiffness.bend > 0
+                       ? "the double-precision reference knows no bending that is at rest when bent"
+                       : nullptr;
+        case ClothKey::name:
+        case ClothKey::grid:
+        case ClothKey::size:
+        case ClothKey::placement:
+        case ClothKey::start:
+        case ClothKey::areal_density:
+        case ClothKey::damping:
+        case ClothKey::velocity:
+        case ClothKey::velocities:
+        case ClothKey::holes:
+        case ClothKey::cell_stiffness:
+        case ClothKey::cell_density:
+        case ClothKey::pins:
+        case ClothKey::appearance:
+        // Contact and tears are left out.
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::contact:
+        case ClothKey::self_collision:
+        case ClothKey::particle_friction:
+        case ClothKey::particle_thickness:
+        case ClothKey::tear:
+        case ClothKey::cell_tear:
+            return nullptr;
+    }
+    return nullptr;
+}
+
 void check_supported(const SceneDescription& scene, const Cloth& cloth, const NetworkOptions& options) {
-    if (cloth.stiffness.rigid)
-        throw std::invalid_argument("cloth \"" + cloth.name + "\": rigid springs have no energy to refer to");
-    if (!cloth.stiffness_keys.empty())
-        throw std::invalid_argument("cloth \"" + cloth.name +
-                                    "\": the double-precision reference knows no stiffness that changes");
-    if (cloth.rest == Rest::start && cloth.stiffness.bend > 0)
-        throw std::invalid_argument("cloth \"" + cloth.name +
-                                    "\": the double-precision reference knows no bending that is at rest when bent");
+    for (const ClothKey key : cloth_keys)
+        if (const char* what = unsupported(key, cloth))
+            throw std::invalid_argument("cloth \"" + cloth.name + "\": " + what);
     if (!scene.colliders.empty() && !options.ignore_colliders)
         throw std::invalid_argument("scene \"" + scene.name + "\": the double-precision reference knows no colliders");
 }
@@ -64,7 +100,7 @@ SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_in
 }
 
 void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
-    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
             mass.push_back(0.25 * grid.cell_masses(column, row) * cloth.areal_density * dx * dy);
@@ -95,7 +131,7 @@ void SpringNetwork::hold_pins(const Cloth& cloth, const Grid& grid) {
 }
 
 void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
-    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     const double stiffness[4] = {cloth.stiffness.stretch * dy / dx, cloth.stiffness.stretch * dx / dy,
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy),
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)};
@@ -120,7 +156,7 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
 void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
     const double rigidity = cloth.stiffness.bend;
     if (rigidity == 0) return;
-    const double dx = cloth.size[0] / (grid.columns() - 1), dy = cloth.size[1] / (grid.rows() - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     const auto present = [&grid](int i, int j) { return grid.cell(i, j) != 0; };
     // Where cells differ, three particles bend as the softer of their two springs pulls.
     const bool mapped = !cloth.cell_stiffness.empty();

@@ -17,7 +17,7 @@ namespace {
 /// Returns a particle's distance to what contact keeps it from, m: to a mesh by its triangles, which need no field.
 float distance_to(const Collider& kept, const glsl::ColliderRecord& record, const glsl::vec3& world,
                   const glsl::vec3& local) {
-    if (const Mesh* mesh = std::get_if<Mesh>(&kept.shape))
+    if (const Mesh* mesh = special(kept.shape).mesh)
         return static_cast<float>(exact::shape_distance(*mesh, {local.x, local.y, local.z}));
     return glsl::collider_surface(kept.kind(), record, world, local, nullptr).distance;
 }
@@ -27,7 +27,7 @@ float distance_to(const Collider& kept, const glsl::ColliderRecord& record, cons
 std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::size_t cloth, double time,
                                             std::span<const float> xyzw) {
     const Cloth& shape = scene.cloths[cloth];
-    const double edge = std::min(shape.size[0] / (shape.grid[0] - 1), shape.size[1] / (shape.grid[1] - 1));
+    const double edge = least_spacing(shape);
     const auto reach = static_cast<float>(shape.thickness + contact_reach * edge);
     std::vector<std::int16_t> touched(xyzw.size() / 4, -1);
     std::vector<float> nearest(touched.size(), reach);
@@ -39,14 +39,12 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
         const int kind = scene.colliders[number].kind();
         const Collider kept = formed(contact_shape(shape, scene.colliders[number]), time);
         const glsl::ColliderRecord record = collider_record(kept, time, time);
-        const glsl::vec3 radii{record.shape.x, record.shape.y, record.shape.z};
         for (std::size_t particle = 0; particle < touched.size(); ++particle) {
             if (xyzw[4 * particle + 3] == 0) continue;
             const glsl::vec3 world{xyzw[4 * particle], xyzw[4 * particle + 1], xyzw[4 * particle + 2]};
             const glsl::vec3 local = glsl::local_point(record, world);
-            // The costly distances are spared where a box about the shape is too far.
-            if (kind == glsl::kind_ellipsoid && glsl::beyond_bounds(local, radii, reach)) continue;
-            if (kind == glsl::kind_mesh && glsl::beyond_reach(kind, record, world, reach)) continue;
+            // Bounds spare the costly distances. A plane's costs no more than they.
+            if (!special(kept.shape).plane && glsl::beyond_reach(kind, record, world, reach)) continue;
             const float distance = distance_to(kept, record, world, local);
             if (distance > nearest[particle]) continue;
             nearest[particle] = distance;

@@ -8,29 +8,67 @@
 #include "output/kept_frames.h"
 #include "run/frame_sink.h"
 #include "spirv_modules.h"
+#include "world/cloth_keys.h"
 #include "world/contact_shape.h"
 
 namespace drape {
 
 namespace {
 
-/// Returns the hash of what the cloth has from files, whatever they are called.
-std::string given_hash(const Cloth& cloth) {
-    return xxh3_128_hex(std::as_bytes(std::span(cloth.start))) +
-           (cloth.velocities.empty() ? "" : xxh3_128_hex(std::as_bytes(std::span(cloth.velocities)))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.holes))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_stiffness))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_density))) +
-           xxh3_128_hex(std::as_bytes(std::span(cloth.cell_tear))) +
-           (has_skin(cloth) ? xxh3_128_hex(std::as_bytes(std::span(cloth.particle_friction))) +
-                                  xxh3_128_hex(std::as_bytes(std::span(cloth.particle_thickness)))
-                            : "");
+template <class Values>
+std::string hash_of(const Values& values) {
+    return xxh3_128_hex(std::as_bytes(std::span(values)));
 }
 
-std::string given_hash(const MeshShape& mesh) {
-    return xxh3_128_hex(std::as_bytes(std::span(mesh.vertices()))) +
-           xxh3_128_hex(std::as_bytes(std::span(mesh.triangles())));
+/// Returns the hash of what a key of the cloth has from a file, whatever that is called.
+std::string given_hash(ClothKey key, const Cloth& cloth) {
+    switch (key) {
+        case ClothKey::start:
+            return hash_of(cloth.start);
+        case ClothKey::velocities:
+            return cloth.velocities.empty() ? "" : hash_of(cloth.velocities);
+        case ClothKey::holes:
+            return hash_of(cloth.holes);
+        case ClothKey::cell_stiffness:
+            return hash_of(cloth.cell_stiffness);
+        case ClothKey::cell_density:
+            return hash_of(cloth.cell_density);
+        case ClothKey::cell_tear:
+            return hash_of(cloth.cell_tear);
+        case ClothKey::particle_friction:
+            return has_skin(cloth) ? hash_of(cloth.particle_friction) : "";
+        case ClothKey::particle_thickness:
+            return has_skin(cloth) ? hash_of(cloth.particle_thickness) : "";
+        // The scene's text says these.
+        case ClothKey::name:
+        case ClothKey::grid:
+        case ClothKey::size:
+        case ClothKey::placement:
+        case ClothKey::rest:
+        case ClothKey::areal_density:
+        case ClothKey::stiffness:
+        case ClothKey::stiffness_keys:
+        case ClothKey::damping:
+        case ClothKey::friction:
+        case ClothKey::thickness:
+        case ClothKey::contact:
+        case ClothKey::self_collision:
+        case ClothKey::velocity:
+        case ClothKey::tear:
+        case ClothKey::pins:
+        case ClothKey::appearance:
+            return "";
+    }
+    return "";
 }
+
+std::string given_hash(const Cloth& cloth) {
+    std::string hash;
+    for (const ClothKey key : cloth_keys) hash += given_hash(key, cloth);
+    return hash;
+}
+
+std::string given_hash(const MeshShape& mesh) { return hash_of(mesh.vertices()) + hash_of(mesh.triangles()); }
 
 LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     if (!result.scene) throw SceneFailure(std::move(result));
@@ -41,9 +79,9 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     if (!result.files.empty()) {
         for (const Cloth& cloth : loaded.description.cloths) hashed.push_back(given_hash(cloth));
         for (const Collider& collider : loaded.description.colliders)
-            if (const Mesh* mesh = std::get_if<Mesh>(&collider.shape)) {
+            if (const Mesh* mesh = special(collider.shape).mesh) {
                 hashed.push_back(given_hash(*mesh->shape));
-                if (mesh->sequence) hashed.push_back(xxh3_128_hex(std::as_bytes(mesh->sequence->places())));
+                if (mesh->sequence) hashed.push_back(hash_of(mesh->sequence->places()));
             }
     }
     loaded.hash = run_key(hashed);

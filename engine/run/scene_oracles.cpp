@@ -229,17 +229,10 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
             fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
 }
 
-double size_of(const Plane&) { return 1; }
-double size_of(const Sphere& sphere) { return sphere.radius; }
-double size_of(const Box& box) { return *std::ranges::min_element(box.half_extents); }
-double size_of(const Capsule& capsule) { return std::min(capsule.radii[0], capsule.radii[1]); }
-double size_of(const Mesh& mesh) { return mesh.shape->inner_radius(); }
-double size_of(const Ellipsoid& ellipsoid) { return *std::ranges::min_element(ellipsoid.radii); }
-
 /// Returns how far the deepest particle is below the surface that contact keeps (world/contact_shape.h) with the
-/// cloth's thickness on top, in units of the collider's size (radius, least half extent; a plane's is 1 m).
+/// cloth's thickness on top, in units of half its least width; of a plane's in metres.
 double deepest(const SceneRun& run, const Collider& collider) {
-    const double size = std::visit([](const auto& shape) { return size_of(shape); }, collider.shape);
+    const double size = special(collider.shape).plane ? 1 : shape_geometry(collider.shape).half_width;
     double depth = -std::numeric_limits<double>::infinity();
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
         const Collider kept = contact_shape(run.scene.cloths[cloth], collider);

@@ -72,10 +72,9 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     return run;
 }
 
-ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index) : grid(scene.cloths[index]) {
+ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
+    : grid(scene.cloths[index]), spacing(grid_spacing(scene.cloths[index])) {
     const Cloth& cloth = scene.cloths[index];
-    spacing[0] = cloth.size[0] / (grid.columns() - 1);
-    spacing[1] = cloth.size[1] / (grid.rows() - 1);
     mass.assign(grid.particle_count(), 0);
     // Each triangle gives its corners what makes a whole cell give a quarter of its mass to each corner.
     for (std::uint32_t row = 0; row + 1 < grid.rows(); ++row)

@@ -2,6 +2,7 @@
 // position arrays alone.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -54,8 +55,8 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
 struct ClothMeasure {
     ClothMeasure(const SceneDescription& scene, std::size_t cloth);
     Grid grid;
-    double spacing[2];         ///< m
-    std::vector<double> mass;  ///< kg; 0 for a particle without cells
+    std::array<double, 2> spacing;  ///< m
+    std::vector<double> mass;       ///< kg; 0 for a particle without cells
 };
 
 /// Returns the strains of the existing springs along columns (`down`) or along rows.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "mesh/mesh_shape.h"
 #include "picture/collider_surface.h"
 #include "world/collider_pose.h"
@@ -13,10 +11,6 @@ namespace drape {
 namespace {
 
 constexpr int round_segments = 48, obstacle_segments = 24;
-
-/// The words of the kinds, in their order.
-constexpr std::string_view kind_names[] = {"plane", "sphere", "box", "ellipsoid", "capsule", "mesh"};
-static_assert(std::size(kind_names) == std::variant_size_v<ColliderShape>);
 
 Placement3x4 placement_at(const Collider& collider, double time) {
     const ColliderPose pose = surface_pose(collider, time);
@@ -36,15 +30,14 @@ std::vector<WrittenCollider> colliders_of(const SceneDescription& scene, int seg
     for (const Collider& collider : scene.colliders) {
         ColliderSurface surface = collider_surface(collider, segments, square);
         const auto number = static_cast<std::int32_t>(written.size());
-        WrittenCollider one{
-            .name = fmt::format("collider_{}_{}", number, kind_names[collider.shape.index()]),
-            .number = number,
-            .vertices = std::move(surface.vertices),
-            .faces = {},
-            .flat = std::holds_alternative<Plane>(collider.shape) || std::holds_alternative<Box>(collider.shape),
-            .moves = collider.moves(),
-            .color = collider.color,
-            .placement = [collider](double time) { return placement_at(collider, time); }};
+        WrittenCollider one{.name = fmt::format("collider_{}_{}", number, collider_names[collider.shape.index()]),
+                            .number = number,
+                            .vertices = std::move(surface.vertices),
+                            .faces = {},
+                            .flat = shape_geometry(collider.shape).has_flat_sides,
+                            .moves = collider.moves(),
+                            .color = collider.color,
+                            .placement = [collider](double time) { return placement_at(collider, time); }};
         if (collider.deforms()) one.form = [collider](double time) { return form_at(collider, time); };
         for (const auto& triangle : surface.triangles)
             one.faces.insert(one.faces.end(), triangle.begin(), triangle.end());

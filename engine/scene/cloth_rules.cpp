@@ -57,7 +57,7 @@ bool check_resolution(const SceneNode& cloth_node, const Cloth& cloth) {
     const StartBox box = start_box(cloth);
     for (const Vec3& corner : {box.low, box.high})
         for (const double x : corner) farthest = std::max(farthest, std::abs(x) + cloth.placement.jitter);
-    const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double edge = least_spacing(cloth);
     const auto single = static_cast<float>(farthest);
     const double ulp = static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity())) - single;
     if (ulp <= 0.25 * edge) return true;
@@ -75,7 +75,7 @@ bool check_self_collision(const SceneNode& node, const Cloth& cloth) {
         return node.fail(fmt::format("expected at most {} particles in a cloth that meets itself, got {}",
                                      most_particles, std::uint64_t{cloth.grid[0]} * cloth.grid[1]));
     if (!cloth.self_collision->thickness) return true;
-    const double spacing = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double spacing = least_spacing(cloth);
     const double least = least_self_thickness * spacing, most = most_self_thickness * spacing;
     const double thickness = *cloth.self_collision->thickness;
     constexpr double rounding = 1e-9;  // allows for dividing the cloth's size by its edges
@@ -116,7 +116,7 @@ void count_particles(const SceneNode& grid, const Cloth& cloth, std::uint64_t& t
 double fall_per_substep(const SceneDescription& scene, const Cloth& cloth, double gravity, double fps) {
     const bool is_automatic = scene.solver.method == SolverMethod::automatic;
     const double step = 1 / (fps * (is_automatic ? most_solver_substeps : scene.solver.substeps));
-    const double edge = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double edge = least_spacing(cloth);
     return gravity * step * step / edge;
 }
 

@@ -123,15 +123,21 @@ Key<Colliders> colliders_of(const Object<Collider>& object, std::string_view hel
     return key;
 }
 
-inline const Object<Colliders> colliders{"colliders",
-                                         "Solid bodies the cloth stays outside of.",
-                                         {
-                                             colliders_of<Plane>(plane, "Half-spaces."),
-                                             colliders_of<Sphere>(sphere, "Spheres."),
-                                             colliders_of<Box>(box, "Boxes."),
-                                             colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."),
-                                             colliders_of<Capsule>(capsule, "Capsules."),
-                                             colliders_of<Mesh>(mesh, "Triangle meshes."),
-                                         }};
+/// Returns one of the keys.
+struct ListOf {
+    Key<Colliders> operator()(const Plane&) const { return colliders_of<Plane>(plane, "Half-spaces."); }
+    Key<Colliders> operator()(const Sphere&) const { return colliders_of<Sphere>(sphere, "Spheres."); }
+    Key<Colliders> operator()(const Box&) const { return colliders_of<Box>(box, "Boxes."); }
+    Key<Colliders> operator()(const Ellipsoid&) const { return colliders_of<Ellipsoid>(ellipsoid, "Ellipsoids."); }
+    Key<Colliders> operator()(const Capsule&) const { return colliders_of<Capsule>(capsule, "Capsules."); }
+    Key<Colliders> operator()(const Mesh&) const { return colliders_of<Mesh>(mesh, "Triangle meshes."); }
+};
+template <class... Shapes>
+std::vector<Key<Colliders>> lists_of_all(const std::variant<Shapes...>&) {
+    return {ListOf()(Shapes())...};
+}
+
+inline const Object<Colliders> colliders{"colliders", "Solid bodies the cloth stays outside of.",
+                                         lists_of_all(ColliderShape())};
 
 }  // namespace drape::rows

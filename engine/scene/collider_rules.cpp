@@ -57,7 +57,7 @@ bool check_mesh(const Members& members, Collider& collider) {
 bool check_fields(const SceneNode& colliders, const SceneDescription& scene) {
     std::size_t points = 0, place = 0;
     for (const Collider& collider : scene.colliders) {
-        if (!std::holds_alternative<Mesh>(collider.shape)) continue;
+        if (!special(collider.shape).mesh) continue;
         const FieldPlan plan = field_plan(scene, collider);
         points += plan.texels;
         const SceneNode mesh = colliders.member("meshes").element(place++);

@@ -81,7 +81,7 @@ void warn_of_cloth(const SceneNode& node, const Cloth& cloth) {
 /// Returns how many particles start in a triangle, up to rounding.
 std::size_t particles_in(const Corners& corners, const Cloth& cloth) {
     const Vec3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-    const double rounding = 1e-5 * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double rounding = 1e-5 * least_spacing(cloth);
     std::size_t count = 0;
     for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
         for (std::uint32_t column = 0; column < cloth.grid[0]; ++column) {

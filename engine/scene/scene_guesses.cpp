@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "drape/scene.h"
+
 namespace drape {
 namespace {
 
@@ -12,7 +14,16 @@ struct Guess {
     std::string_view meant;
 };
 
-constexpr std::string_view solids = " plane sphere box ellipsoid capsule ";
+/// Returns whether the list has the word between spaces.
+constexpr bool lists(std::string_view list, std::string_view word) {
+    for (std::size_t at = list.find(word); at != std::string_view::npos; at = list.find(word, at + 1))
+        if (list[at - 1] == ' ' && list[at + word.size()] == ' ') return true;
+    return false;
+}
+
+constexpr std::string_view solids = " plane sphere box ellipsoid capsule ", without_guesses = " mesh ";
+static_assert(std::ranges::all_of(collider_names,
+                                  [](auto name) { return lists(solids, name) || lists(without_guesses, name); }));
 
 // The first row that fits counts.
 constexpr Guess guesses[] = {
@@ -82,13 +93,6 @@ constexpr Guess guesses[] = {
     {" scene ", " light sun ", "\"lights\" (an array)"},
     {" scene ", " knife blade cuts cut ", "\"cutters\" (an array)"},
 };
-
-/// Returns whether the list has the word between spaces.
-bool lists(std::string_view list, std::string_view word) {
-    for (std::size_t at = list.find(word); at != std::string_view::npos; at = list.find(word, at + 1))
-        if (list[at - 1] == ' ' && list[at + word.size()] == ' ') return true;
-    return false;
-}
 
 }  // namespace
 

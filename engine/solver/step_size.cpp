@@ -22,8 +22,21 @@ DispatchSize of_cloths(const StepPlace& place, std::uint32_t width, std::uint32_
     return {width, height, place.cloth->count()};
 }
 
-std::size_t count_of(const SimulationModel& model, int kind) {
-    return static_cast<std::size_t>(std::ranges::count(model.scene.colliders, kind, &Collider::kind));
+/// An invocation loops over this much for contact of its particle with one collider of a kind.
+struct KindLoops {
+    std::size_t newton;  ///< rounds of the root that its distance is
+    bool edges;          ///< the pass of edges looks at it
+};
+/// In the order of the kinds: plane, sphere, box, ellipsoid, capsule, mesh.
+constexpr KindLoops kind_loops[] = {{0, false}, {0, false}, {0, true}, {24, false}, {0, false}, {0, true}};
+static_assert(std::size(kind_loops) == std::variant_size_v<ColliderShape>);
+
+/// Returns the sum over the model's colliders.
+template <class Count>
+std::size_t sum_of(const SimulationModel& model, Count KindLoops::*count) {
+    std::size_t sum = 0;
+    for (const Collider& collider : model.scene.colliders) sum += kind_loops[collider.shape.index()].*count;
+    return sum;
 }
 
 std::span<const glsl::ivec4> nested_pins(const StepPlace& place, const ClothModel& cloth) {
@@ -44,16 +57,15 @@ DispatchSize over_stream(const StepPlace& place, int width, int halo) {
 
 std::size_t step_rounds(const StepPlace& place) {
     if (place.step.kind == StepKind::collide) {
-        // Each round goes over all colliders: twice over each that is not among the early ones, and twice Newton's 24
-        // over each ellipsoid.
+        // Each round goes over all colliders: twice over each that is not among the early ones, and twice over what
+        // Newton's method needs.
         const std::size_t count = place.model.scene.colliders.size();
-        return place.model.collision_rounds() * (1 + 2 * count + 48 * count_of(place.model, glsl::kind_ellipsoid)) +
-               count;
+        return place.model.collision_rounds() * (1 + 2 * count + 2 * sum_of(place.model, &KindLoops::newton)) + count;
     }
     // One finds whether the particle is near each box or mesh, then each is met by each triangle around it.
     constexpr std::size_t triangles = 6;
     if (place.step.kind == StepKind::collider_edges)
-        return 2 + (count_of(place.model, glsl::kind_box) + count_of(place.model, glsl::kind_mesh)) * (2 + triangles);
+        return 2 + sum_of(place.model, &KindLoops::edges) * (2 + triangles);
     return 1;
 }
 

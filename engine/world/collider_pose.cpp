@@ -21,19 +21,29 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
 
 ShapeGeometry geometry(const Plane& plane) {
     const Vec3 foot{plane.normal[0] * plane.offset, plane.normal[1] * plane.offset, plane.normal[2] * plane.offset};
-    return {foot, plane.normal, std::numeric_limits<double>::infinity()};
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return {foot, plane.normal, none, none, 0, true};
 }
-ShapeGeometry geometry(const Sphere& sphere) { return {sphere.center, {sphere.radius, 0, 0}, sphere.radius}; }
+ShapeGeometry geometry(const Sphere& sphere) {
+    return {sphere.center, {sphere.radius, 0, 0}, sphere.radius, sphere.radius, sphere.radius, false};
+}
 ShapeGeometry geometry(const Box& box) {
     const Vec3& h = box.half_extents;
-    return {box.center, h, std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2])};
+    return {box.center, h, std::sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), std::ranges::min(h), 0, true};
 }
 ShapeGeometry geometry(const Ellipsoid& ellipsoid) {
-    return {ellipsoid.center, ellipsoid.radii, *std::ranges::max_element(ellipsoid.radii)};
+    const auto [least, most] = std::ranges::minmax(ellipsoid.radii);
+    return {ellipsoid.center, ellipsoid.radii, most, least, most, false};
 }
 
 ShapeGeometry geometry(const Mesh& mesh) {
-    return {plus(mesh.position, mesh.shape->middle()), mesh.shape->half_extents(), length(mesh.shape->half_extents())};
+    const Vec3& half_extents = mesh.shape->half_extents();
+    return {plus(mesh.position, mesh.shape->middle()),
+            half_extents,
+            length(half_extents),
+            mesh.shape->inner_radius() + mesh.grown,
+            0,
+            false};
 }
 
 /// The capsule's own y axis runs from `from` to `to`.
@@ -52,9 +62,13 @@ ShapeGeometry geometry(const Capsule& capsule) {
     const double length = std::hypot(x[0], x[1], x[2]);
     for (double& entry : x) entry /= length;
     const Vec3 z{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+    const auto [least, most] = std::ranges::minmax(capsule.radii);
     return {center,
             {0.5 * apart, capsule.radii[0], capsule.radii[1]},
-            0.5 * apart + std::max(capsule.radii[0], capsule.radii[1]),
+            0.5 * apart + most,
+            least,
+            most,
+            false,
             std::array{x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]}};
 }
 
@@ -83,8 +97,9 @@ double pose_number(const Mesh& mesh, double time) {
 
 Collider formed(const Collider& collider, double time) {
     Collider now = collider;
-    if (Mesh* const mesh = std::get_if<Mesh>(&now.shape); mesh && mesh->sequence)
-        mesh->shape = mesh->sequence->at(pose_number(*mesh, time));
+    if (!collider.deforms()) return now;
+    Mesh& mesh = std::get<Mesh>(now.shape);
+    mesh.shape = mesh.sequence->at(pose_number(mesh, time));
     return now;
 }
 

@@ -17,9 +17,12 @@ struct ColliderPose {
 
 /// A shape in its own frame.
 struct ShapeGeometry {
-    Vec3 center;   ///< m, at rest; the shape turns about it
-    Vec3 size;     ///< its form on the device (shared/collider_types.h); a plane's is its normal
-    double reach;  ///< m, the surface's farthest from the centre; infinity: it has no end
+    Vec3 center;        ///< m, at rest; the shape turns about it
+    Vec3 size;          ///< its form on the device (shared/collider_types.h); a plane's is its normal
+    double reach;       ///< m, the surface's farthest from the centre; infinity: it has no end
+    double half_width;  ///< m, from the surface to the middle where it is the thinnest; infinity: it has no middle
+    double roundness;   ///< m, radius of its largest circle, by which a round mesh draws it; 0: it is not drawn so
+    bool has_flat_sides;
     /// The shape's own axes before it is rotated, row major; nothing: the world's.
     std::optional<std::array<double, 9>> axes = {};
 };

@@ -60,6 +60,15 @@ struct Grow {
     }
 };
 
+/// Returns whether shaders/collider_edges.comp keeps a shape's edges out of the cloth's triangles. A shell is made of
+/// balls, by which it grows.
+bool has_edges(const Plane&) { return false; }
+bool has_edges(const Sphere&) { return false; }
+bool has_edges(const Box&) { return true; }
+bool has_edges(const Ellipsoid&) { return false; }
+bool has_edges(const Capsule&) { return false; }
+bool has_edges(const Mesh& mesh) { return !mesh.shell; }
+
 }  // namespace
 
 double covering_radius(const Cloth& cloth) {
@@ -69,7 +78,7 @@ double covering_radius(const Cloth& cloth) {
         const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
         const double scale =
             cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;
-        const double spacing = cloth.size[axis] / (cloth.grid[axis] - 1) * std::max(1.0, scale);
+        const double spacing = grid_spacing(cloth)[axis] * std::max(1.0, scale);
         squared += spacing * spacing;
     }
     return 0.5 * (1 + contact_stretch) * std::sqrt(squared);
@@ -83,13 +92,11 @@ double least_thickness(const Cloth& cloth) {
 double edge_reach(const Cloth& cloth) { return 2 * covering_radius(cloth); }
 
 bool meets_edges(const Cloth& cloth, const std::vector<Collider>& colliders) {
-    // A shell is made of balls, by which it grows.
-    const auto has_edges = [](const Collider& each) {
-        const Mesh* mesh = std::get_if<Mesh>(&each.shape);
-        return std::holds_alternative<Box>(each.shape) || (mesh && !mesh->shell);
+    const auto any_edges = [](const Collider& each) {
+        return std::visit([](const auto& shape) { return has_edges(shape); }, each.shape);
     };
     return cloth.contact == ContactOf::surface && least_thickness(cloth) < covering_radius(cloth) &&
-           std::ranges::any_of(colliders, has_edges);
+           std::ranges::any_of(colliders, any_edges);
 }
 
 Collider contact_shape(const Cloth& cloth, const Collider& collider) {

@@ -14,9 +14,7 @@ namespace {
 /// Returns half of the least distance of particles of the scene's cloths, m.
 double half_cell(const SceneDescription& scene) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Cloth& cloth : scene.cloths)
-        for (std::size_t axis = 0; axis < 2; ++axis)
-            least = std::min(least, 0.5 * cloth.size[axis] / (cloth.grid[axis] - 1));
+    for (const Cloth& cloth : scene.cloths) least = std::min(least, 0.5 * least_spacing(cloth));
     return least;
 }
 
@@ -34,7 +32,7 @@ double margin_of(const SceneDescription& scene, const Collider& collider) {
 
 /// Returns how many points a mesh may have that asks for no spacing.
 std::size_t most_points(const SceneDescription& scene, const Collider& collider) {
-    const auto is_mesh = [](const Collider& each) { return std::holds_alternative<Mesh>(each.shape); };
+    const auto is_mesh = [](const Collider& each) { return special(each.shape).mesh != nullptr; };
     const auto count = static_cast<std::size_t>(std::ranges::count_if(scene.colliders, is_mesh));
     const std::size_t share = most_field_points / std::max<std::size_t>(count, 1);
     return collider.deforms() ? std::min(usual_moving_points, share / glsl::moving_point_texels)

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "world/motion.h"
+#include "world/overlap.h"
 #include "world/start.h"
 #include "world/surface_distance.h"
 
@@ -50,10 +51,6 @@ std::vector<HeldByPin> held_by_pin(const Cloth& cloth) {
 
 Vec3 led(const RigidTransform& motion, const Vec3& pivot, const Vec3& rest) {
     return plus(plus(rotate(motion.rotation, minus(rest, pivot)), pivot), motion.translation);
-}
-
-double shorter_edge(const Cloth& cloth) {
-    return std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
 }
 
 /// Returns the least distance on the way between two points: along a straight one that of a convex shape is convex.
@@ -135,7 +132,7 @@ HeldDeep deepest_of(const SceneDescription& scene, const Cloth& cloth, const Pin
         const Collider& collider = scene.colliders[index];
         if (!collider.moves() && pin.path.keys.empty()) continue;
         Beside beside(pin, held, collider);
-        const double least = std::max(least_held_depth * shorter_edge(cloth), 1.001 * beside.start());
+        const double least = std::max(least_held_depth * least_spacing(cloth), 1.001 * beside.start());
         HeldDeep one;
         one.collider = index;
         // Forms are costly to look at: those of the frames have to do.
@@ -183,21 +180,17 @@ std::vector<PathJump> path_jumps(const SceneDescription& scene) {
             const RigidTransform motion = motion_at(cloth.pins[pin].path, 0);
             for (const Vec3& rest : held[pin].rest)
                 jump.distance = std::max(jump.distance, length(minus(led(motion, held[pin].pivot, rest), rest)));
-            if (jump.distance > least_jump * shorter_edge(cloth)) all.push_back(jump);
+            if (jump.distance > least_jump * least_spacing(cloth)) all.push_back(jump);
         }
     }
     return all;
 }
 
 std::string held_text(const SceneDescription& scene, const HeldDeep& held) {
-    const std::size_t kind = scene.colliders[held.collider].shape.index();
-    const auto before = scene.colliders.begin() + static_cast<std::ptrdiff_t>(held.collider);
-    const auto place = std::count_if(scene.colliders.begin(), before,
-                                     [&](const Collider& other) { return other.shape.index() == kind; });
     return fmt::format(
-        "cloth \"{}\" is held up to {:.3g} m inside /colliders/{}/{}, from frame {} on, deepest in "
+        "cloth \"{}\" is held up to {:.3g} m inside {}, from frame {} on, deepest in "
         "frame {}{}",
-        scene.cloths[held.cloth].name, held.depth, collider_lists[kind], place, held.first, held.worst,
+        scene.cloths[held.cloth].name, held.depth, collider_place(scene, held.collider), held.first, held.worst,
         held.stays ? "" : ", and led through it within a substep");
 }
 

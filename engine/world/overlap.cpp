@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "world/start.h"
 #include "world/surface_distance.h"
@@ -41,18 +42,27 @@ std::vector<Vec3> places(const Cloth& cloth) {
 }
 
 /// Returns how deep (m) particles must be to count.
-double counting_depth(const Cloth& cloth) {
-    return least_depth * std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+double counting_depth(const Cloth& cloth) { return least_depth * least_spacing(cloth); }
+
+/// Returns the half extents of a shape that cloth inside leaves by one of six faces (way_out_surface in
+/// shaders/include/colliders.h); nothing: it leaves by the nearest surface.
+std::optional<Vec3> faces_of(const ColliderShape& shape) {
+    using Faces = std::optional<Vec3>;
+    return std::visit(
+        ForEachKind{[](const Plane&) { return Faces(); }, [](const Sphere&) { return Faces(); },
+                    [](const Box& box) { return Faces(box.half_extents); }, [](const Ellipsoid&) { return Faces(); },
+                    [](const Capsule&) { return Faces(); }, [](const Mesh&) { return Faces(); }},
+        shape);
 }
 
 /// `inside` holds the places of particles in the box, `normal` is the cloth's; both are in the box's frame.
-WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Box& box, double speed) {
+WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Vec3& half_extents, double speed) {
     WayOut best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < 3 && !inside.empty(); ++axis)
         for (const double side : {1.0, -1.0}) {
             double farthest = 0;
-            for (const Vec3& at : inside) farthest = std::max(farthest, box.half_extents[axis] - side * at[axis]);
+            for (const Vec3& at : inside) farthest = std::max(farthest, half_extents[axis] - side * at[axis]);
             const double along_cloth = std::sqrt(std::max(0.0, dot(normal, normal) - normal[axis] * normal[axis]));
             if (const double cost = farthest * (1 + 2 * along_cloth); cost < least) {
                 least = cost;
@@ -106,16 +116,15 @@ std::vector<WayOut> ways_out(const Cloth& cloth, const std::vector<Collider>& co
     std::vector<WayOut> ways(colliders.size());
     std::vector<Vec3> at;
     for (std::size_t k = 0; k < colliders.size(); ++k) {
-        const Box* box = std::get_if<Box>(&colliders[k].shape);
-        if (!box) continue;
+        const std::optional<Vec3> faces = faces_of(colliders[k].shape);
+        if (!faces) continue;
         if (at.empty()) at = places(cloth);
         const ColliderPose pose = collider_pose(colliders[k], 0);
         std::vector<Vec3> inside;
         for (const Vec3& world : at)
-            if (const Vec3 local = exact::to_local(pose, world);
-                exact::shape_distance(*box, local) < -counting_depth(cloth))
-                inside.push_back(local);
-        ways[k] = way_out(inside, exact::to_local({pose.rotation, {}}, start_normal(cloth)), *box, speed);
+            if (exact::surface_distance(colliders[k], pose, world) < -counting_depth(cloth))
+                inside.push_back(exact::to_local(pose, world));
+        ways[k] = way_out(inside, exact::to_local({pose.rotation, {}}, start_normal(cloth)), *faces, speed);
     }
     return ways;
 }

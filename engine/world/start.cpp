@@ -30,7 +30,7 @@ double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
         farthest = std::max(farthest, std::abs(cloth.placement.origin[k]) + std::abs(u[k]) + std::abs(v[k]));
     for (const Vec3& at : cloth.start)
         for (const double x : at) farthest = std::max(farthest, std::abs(x));
-    const double cell = std::min(cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1));
+    const double cell = least_spacing(cloth);
     return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
 }
 
@@ -71,7 +71,7 @@ template <class Look>
 void for_springs(const Cloth& cloth, std::size_t axis, const Look& look) {
     const std::vector<bool> missing = missing_cells(cloth);
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], step = axis == 0 ? 1 : columns;
-    const double rest = cloth.size[axis] / (cloth.grid[axis] - 1);
+    const double rest = grid_spacing(cloth)[axis];
     const auto is_there = [&](std::size_t column, std::size_t row) {
         return column + 1 < columns && row + 1 < rows && !missing[row * (columns - 1) + column];
     };
@@ -232,7 +232,7 @@ bool leaves_a_cell(const Cloth& cloth) {
 Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
     if (!cloth.start.empty()) return cloth.start[std::size_t{row} * cloth.grid[0] + column];
     const Placement& placement = cloth.placement;
-    const double dx = cloth.size[0] / (cloth.grid[0] - 1), dy = cloth.size[1] / (cloth.grid[1] - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     Vec3 at = placement.origin;
     for (std::size_t k = 0; k < 3; ++k)
         at[k] += column * dx * placement.scale[0] * placement.u[k] + row * dy * placement.scale[1] * placement.v[k];
@@ -286,7 +286,7 @@ double start_strain(const Cloth& cloth) {
         return strain;
     }
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double cell = cloth.size[axis] / (cloth.grid[axis] - 1);
+        const double cell = grid_spacing(cloth)[axis];
         const double far = 2 * std::sqrt(3.0) * cloth.placement.jitter / cell;
         strain = std::max(strain, std::abs(std::abs(cloth.placement.scale[axis]) - 1) + far);
     }
@@ -345,7 +345,7 @@ std::vector<std::array<double, 4>> rest_ratios(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], cells = columns - 1;
     std::vector<std::array<double, 4>> ratios(columns * rows, {1, 1, 1, 1});
     if (cloth.rest == Rest::flat) return ratios;
-    const double dx = cloth.size[0] / static_cast<double>(cells), dy = cloth.size[1] / static_cast<double>(rows - 1);
+    const auto [dx, dy] = grid_spacing(cloth);
     const auto set = [&](std::size_t owner, std::size_t other, std::size_t direction, double flat) {
         ratios[owner][direction] = length(minus(cloth.start[other], cloth.start[owner])) / flat;
     };

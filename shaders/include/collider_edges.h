@@ -10,6 +10,10 @@
 
 #include "include/colliders.h"
 
+#if COLLIDER_KINDS != 6
+#error "collider_edges.comp visits boxes, and takes all after the capsules for meshes"
+#endif
+
 /// A corner of a triangle.
 struct CutCorner {
     vec3 local;         // m, in the box's frame, now

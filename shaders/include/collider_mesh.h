@@ -12,6 +12,9 @@ layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstanc
 layout(set = 0, binding = 2, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 #endif
 
+#if COLLIDER_KINDS != 6
+#error "mesh_vertex takes the new kind for a plane"
+#endif
 MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
 #ifdef MESH
     MeshCorner corner = mesh_corners[vertex];

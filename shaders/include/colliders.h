@@ -7,6 +7,10 @@
 #include "include/vector.h"
 #include "shared/collider_types.h"
 
+#if COLLIDER_KINDS != 6
+#error "These lack the new kind: *_end, shape_surface, least_half_width, beyond_reach, bounding_radius, way_in"
+#endif
+
 struct SurfacePoint {
     vec3 normal;     // unit, outward, local frame
     float distance;  // m, negative inside
@@ -253,16 +257,14 @@ SHARED float least_half_width(int kind, vec3 size) {
     return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;
 }
 
-/// Returns what a particle moves at most relative to a collider that it meets on its way, m; `length`: its own
-/// displacement's, `motion`: what the collider's surface moves at most. The host says 1e15 for a collider that turns by
-/// more than a fifth of a radian.
+/// Returns how far a particle moves at most relative to a collider that it meets, m; `length`: by its displacement,
+/// `motion`: by the surface, for which the host says 1e15 where it turns by more than a fifth of a radian.
 SHARED float most_way(float length, float motion) {
     precise float way = (length + motion) * 1.25f;
     return way;
 }
 
-/// Returns whether a particle's way is so long that where it ends does not say from which side it came. A plane has but
-/// one.
+/// Returns whether a particle's way is so long that its end does not say from which side it came. A plane has but one.
 SHARED bool goes_far(int kind, vec3 size, float length, float motion, float thickness) {
     precise float middle = least_half_width(kind, size) + thickness;
     return kind != kind_plane && most_way(length, motion) > middle;
@@ -281,8 +283,7 @@ SHARED float length_of(vec3 v) {
 
 SHARED vec3 size_of(ColliderRecord collider) { return vec3(collider.shape.x, collider.shape.y, collider.shape.z); }
 
-/// Returns whether a point is so far from a collider that contact leaves it where it is. Bounds tell it without a root,
-/// with room for all rounding of the distance.
+/// Returns whether bounds tell, with room for all rounding, that a collider is too far to move a point by contact.
 SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
     vec3 local = local_point(collider, now);
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
@@ -326,8 +327,7 @@ SHARED float beyond_interval(float x, float lower, float upper) {
     return most > 0.0f ? most : 0.0f;
 }
 
-/// Returns whether something between two corners may be nearer than `thickness` to something in a ball (w: radius),
-/// with room for all rounding of the distance.
+/// Returns whether a box between two corners may be nearer than `thickness` to a ball (w: radius), with all rounding.
 SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
     vec3 off = vec3(beyond_interval(ball.x, lower.x, upper.x), beyond_interval(ball.y, lower.y, upper.y),
                     beyond_interval(ball.z, lower.z, upper.z));

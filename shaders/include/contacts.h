@@ -20,6 +20,9 @@ void read_colliders(int first) {
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
 const int collider_texel_count = 8, collider_shape_texel = 6, collider_motion_texel = 7;  // texels of a record
 
+#if COLLIDER_KINDS != 6
+#error "kind_of_collider takes the new kind for a capsule; near_early and contact_with_all leave it out"
+#endif
 int kind_of_collider(int i) {
 #ifdef MESHES
     if (i >= capsules_end) return kind_mesh;

@@ -15,7 +15,10 @@ const int kind_box = 2;
 const int kind_ellipsoid = 3;
 const int kind_capsule = 4;
 const int kind_mesh = 5;
-const int collider_kind_count = 6;
+/// GLSL does not tell which function leaves a kind out. Each file whose functions tell kinds apart therefore compiles
+/// for this number of kinds alone, and its #error names them. It is also the number of C++'s kinds (ColliderShape).
+#define COLLIDER_KINDS 6
+const int collider_kind_count = COLLIDER_KINDS;
 
 /// A collider at the end of one substep. The rotation's rows are world from local, their w is the centre; `change` is
 /// this pose minus the pose one substep earlier (computed in double on the host, so a collider at rest has exact zeros
@@ -63,6 +66,9 @@ struct MeshCorner {
 /// Most segments around a round mesh; from pole to pole it has half as many.
 const int most_round_columns = 96;
 
+#if COLLIDER_KINDS != 6
+#error "mesh_vertex_count takes the new kind for a round one; ColliderRecord and ColliderInstance say what its shape is"
+#endif
 /// Vertices of a kind's mesh (include/collider_mesh.h), six for each quad; a mesh from a file has its own.
 SHARED int mesh_vertex_count(int kind, int round_columns) {
     if (kind == kind_plane) return 6;

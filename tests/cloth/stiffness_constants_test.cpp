@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "cloth/cloth_model.h"
@@ -13,7 +14,7 @@
 namespace drape {
 namespace {
 
-constexpr double square[2] = {0.01, 0.01}, oblong[2] = {0.02, 0.01};
+constexpr std::array square{0.01, 0.01}, oblong{0.02, 0.01};
 
 TEST(StiffnessConstantsTest, FollowTheCells) {
     const StiffnessConstants constants = stiffness_constants({false, 1000, 100, 1e-4}, oblong);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "cloth/cloth_model.h"
@@ -11,7 +12,7 @@
 namespace drape {
 namespace {
 
-constexpr double spacing[2] = {0.1, 0.05};
+constexpr std::array spacing{0.1, 0.05};
 
 TEST(TethersTest, AWholeGridMeasuresTheStraightLineToTheTwoNearestPins) {
     const Grid grid(11, 9);
@@ -37,7 +38,7 @@ TEST(TethersTest, OnePinGivesOneTetherAndNoneGivesNone) {
 }
 
 TEST(TethersTest, PathsGoAroundAHoleAndAreNeverTooShort) {
-    const double cell[2] = {0.1, 0.1};
+    const std::array cell{0.1, 0.1};
     const IndexBox hole{{3, 0}, {7, 8}};  // open at the top: the way leads below it
     const Grid grid(11, 11, std::vector<IndexBox>{hole});
     const auto tethers = find_tethers(grid, cell, {test::pin_box(0, 0, 0, 0)}, 0);
@@ -74,7 +75,7 @@ TEST(TethersTest, AModelHasThemWhereTheyAreAskedForAndSaysWhyNot) {
 
 TEST(TethersTest, FollowAShapeOfRest) {
     const Grid grid(3, 2);
-    const double cell[2] = {1, 1};
+    const std::array cell{1.0, 1.0};
     const std::vector<glsl::vec4> scales(6, {1.5f, 1, 2, 2});
     const auto tethers = find_tethers(grid, cell, {test::pin_box(0, 0, 0, 0)}, 0, scales);
     EXPECT_FLOAT_EQ(tethers[2].length_a, 3);

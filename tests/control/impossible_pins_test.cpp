@@ -4,6 +4,7 @@
 
 #include "control/impossible_scene.h"
 #include "reference/model_scenes.h"
+#include "support/every_kind.h"
 
 namespace drape {
 namespace {
@@ -36,8 +37,9 @@ TEST(ImpossiblePins, OnlyRigidClothCannotBePulledLonger) {
 
 /// Returns a shape of each kind about the held corner's place, 0.4 m and more across.
 std::vector<ColliderShape> shapes_about(const Vec3& at) {
-    return {Plane{{0, 1, 0}, at[1] + 0.1}, Sphere{at, 0.2}, Box{at, {0.2, 0.2, 0.2}}, Ellipsoid{at, {0.2, 0.3, 0.2}},
-            Capsule{{at[0] - 0.2, at[1], at[2]}, {at[0] + 0.2, at[1], at[2]}, {0.2, 0.1}}};
+    return test::of_every_kind<Mesh>(Plane{{0, 1, 0}, at[1] + 0.1}, Sphere{at, 0.2}, Box{at, {0.2, 0.2, 0.2}},
+                                     Ellipsoid{at, {0.2, 0.3, 0.2}},
+                                     Capsule{{at[0] - 0.2, at[1], at[2]}, {at[0] + 0.2, at[1], at[2]}, {0.2, 0.1}});
 }
 
 TEST(ImpossiblePins, NothingIsHeldInsideACollider) {

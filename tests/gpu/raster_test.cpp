@@ -8,6 +8,7 @@
 
 #include "picture/camera.h"
 #include "raster_picture.h"
+#include "support/every_kind.h"
 #include "support/meshes.h"
 #include "world/collider_pose.h"
 
@@ -115,17 +116,17 @@ TEST_P(RasterDepth, ClothHidesAndIsHidden) {
     EXPECT_EQ(channels(draw(scene, cloths).at(pixel(scene, {0.1, 0, -0.55}))), channels(red));
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, RasterDepth,
-                         testing::Values(Plane{{0, 0, 1}, 0.25}, Sphere{{0, 0, 0}, 0.5},
-                                         Box{{0, 0, 0}, {0.4, 0.4, 0.5}}, Ellipsoid{{0, 0, 0}, {0.4, 0.3, 0.5}},
-                                         Capsule{{-0.4, 0, 0}, {0.4, 0.1, 0}, {0.5, 0.4}},
-                                         test::mesh_of(test::ball_mesh(0.5, 32), {0, 0, 0}),
-                                         test::mesh_of(test::box_mesh({0.4, 0.4, 0.5}), {0, 0, 0}, 0.01)),
-                         [](const auto& test) {
-                             const auto* mesh = std::get_if<Mesh>(&test.param);
-                             return std::string(collider_lists[test.param.index()]) +
-                                    (mesh && mesh->shell ? "_with_a_shell" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    EveryKind, RasterDepth,
+    testing::ValuesIn(test::of_every_kind(Plane{{0, 0, 1}, 0.25}, Sphere{{0, 0, 0}, 0.5},
+                                          Box{{0, 0, 0}, {0.4, 0.4, 0.5}}, Ellipsoid{{0, 0, 0}, {0.4, 0.3, 0.5}},
+                                          Capsule{{-0.4, 0, 0}, {0.4, 0.1, 0}, {0.5, 0.4}},
+                                          test::mesh_of(test::ball_mesh(0.5, 32), {0, 0, 0}),
+                                          test::mesh_of(test::box_mesh({0.4, 0.4, 0.5}), {0, 0, 0}, 0.01))),
+    [](const auto& test) {
+        const auto* mesh = std::get_if<Mesh>(&test.param);
+        return std::string(collider_lists[test.param.index()]) + (mesh && mesh->shell ? "_with_a_shell" : "");
+    });
 
 TEST_F(Raster, CollidersHaveTheirTrueSizeAndPose) {
     SceneDescription scene = dark_room();

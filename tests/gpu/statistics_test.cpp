@@ -17,6 +17,7 @@
 #include "simulation/frame_checks.h"
 #include "simulation/frame_server.h"
 #include "solver/statistics_pass.h"
+#include "support/every_kind.h"
 #include "support/meshes.h"
 #include "support/sheets.h"
 
@@ -337,20 +338,19 @@ TEST(StatisticsTest, WhatOverflowsIsLeftOutOfTheNamedValuesAndExtremesAreNamed) 
 }
 
 std::vector<Collider> every_kind() {
-    return {{Plane{{0, 1, 0}, 4.3}},
-            {Sphere{{3.4, 4.9, -2.05}, 0.1}, 0.3, {}, {{{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}}},
-            {Box{{3.9, 4.7, -2}, {0.1, 0.02, 0.3}}, 0.3, {0, 0, 30}},
-            {Ellipsoid{{3.3, 4.5, -1.95}, {0.2, 0.1, 0.07}}},
-            {Capsule{{3.6, 4.6, -2.1}, {3.8, 4.65, -1.9}, {0.08, 0.04}}},
-            {test::mesh_of(test::torus_mesh(0.1, 0.05, 24), {3.6, 4.6, -2})}};
+    std::vector<Collider> all = test::colliders_of(test::of_every_kind(
+        Plane{{0, 1, 0}, 4.3}, Sphere{{3.4, 4.9, -2.05}, 0.1}, Box{{3.9, 4.7, -2}, {0.1, 0.02, 0.3}},
+        Ellipsoid{{3.3, 4.5, -1.95}, {0.2, 0.1, 0.07}}, Capsule{{3.6, 4.6, -2.1}, {3.8, 4.65, -1.9}, {0.08, 0.04}},
+        test::mesh_of(test::torus_mesh(0.1, 0.05, 24), {3.6, 4.6, -2})));
+    all[1].path.keys = {{0, {0, 0, 0}, {}}, {0.5, {0.4, 0, 0}, {}}}, all[2].rotate = {0, 0, 30};
+    return all;
 }
 
 TEST(StatisticsTest, PenetrationIntoEveryKindOfCollider) {
     for (const std::uint32_t frame : {0u, 1u, 20u})
         for (int kind = -1; kind < glsl::collider_kind_count; ++kind) {  // -1: all at once
             SceneDescription scene = soft_sheet(70, 50);
-            scene.time.frame_count = 31;
-            scene.colliders = every_kind();
+            scene.time.frame_count = 31, scene.colliders = every_kind();
             std::erase_if(scene.colliders, [&](const Collider& c) { return kind >= 0 && c.kind() != kind; });
             const SimulationModel model(scene);
             const TwinCloth state = Twin(model).cloth(0);

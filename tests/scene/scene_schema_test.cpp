@@ -14,6 +14,7 @@
 #include "drape/scene_reader.h"
 #include "full_scene.h"
 #include "scene/scene_format.h"
+#include "world/cloth_keys.h"
 
 namespace drape {
 namespace {
@@ -113,6 +114,16 @@ TEST(SceneSchema, IsTheCommittedFile) {
 TEST(SceneFormat, IsTheCommittedDocument) {
     EXPECT_TRUE(scene_format_markdown() == committed("engine/docs/scene_format.md"))
         << "build/drape schema --markdown > engine/docs/scene_format.md";
+}
+
+TEST(SceneFormat, HasEveryKeyOfACloth) {
+    constexpr std::string_view maps = "/maps/";
+    for (const ClothKey key : cloth_keys) {
+        const std::string_view pointer = pointer_of(key);
+        const bool is_map = pointer.starts_with(maps);
+        const Json::Value& keys = object_schema(is_map ? "maps" : "cloth")["properties"];
+        EXPECT_TRUE(keys.isMember(std::string(pointer.substr(is_map ? maps.size() : 1)))) << pointer;
+    }
 }
 
 TEST(SceneFormat, DocumentHasEveryKeyAndItsDefault) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "drape/scene_reader.h"
 #include "full_scene.h"
 #include "mesh/mesh_sequence.h"
+#include "world/cloth_keys.h"
 #include "world/collider_pose.h"
 
 namespace drape {
@@ -70,6 +72,15 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(scene.cloths[3].tear, (Tear{0.4, {}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
+}
+
+TEST(SceneValues, FullSceneHasEveryKeyOfACloth) {
+    std::array<bool, cloth_key_count> set{};
+    for (const Cloth& cloth : scene_of(testing::full_scene).cloths) {
+        const auto differs = differences(cloth, Cloth{});
+        for (std::size_t k = 0; k < set.size(); ++k) set[k] = set[k] || differs[k];
+    }
+    for (const ClothKey key : cloth_keys) EXPECT_TRUE(set[static_cast<std::size_t>(key)]) << pointer_of(key);
 }
 
 TEST(SceneValues, FilesOfTheFullScene) {

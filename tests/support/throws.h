@@ -84,15 +84,37 @@ inline SceneDescription thrown(Random& random, double speed, std::uint32_t most_
 
 /// Returns points in the middle of a collider, in its frame: whatever passes through it passes by most of them.
 inline std::vector<Vec3> middle_of(const Collider& collider) {
+    /// So many points on either side of the middle one, and how far from it they may be.
+    struct Spread {
+        int along, across;
+        double farthest = 2;
+    };
+    const Spread spread = std::visit(ForEachKind{[](const Plane&) {
+                                                     return Spread{2, 2};
+                                                 },
+                                                 [](const Sphere&) {
+                                                     return Spread{0, 0};
+                                                 },
+                                                 [](const Box&) {
+                                                     return Spread{2, 2};
+                                                 },
+                                                 [](const Ellipsoid&) {
+                                                     return Spread{2, 2, 0.9};
+                                                 },
+                                                 [](const Capsule&) {
+                                                     return Spread{2, 0};
+                                                 },
+                                                 [](const Mesh&) {
+                                                     return Spread{2, 2};
+                                                 }},
+                                     collider.shape);
     const Vec3 size = shape_geometry(collider.shape).size;
-    if (collider.kind() == glsl::kind_sphere) return {{0, 0, 0}};
     std::vector<Vec3> points;
-    const bool rod = collider.kind() == glsl::kind_capsule;
-    for (int i = -2; i <= 2; ++i)
-        for (int j = rod ? 0 : -2; j <= (rod ? 0 : 2); ++j) {
+    for (int i = -spread.along; i <= spread.along; ++i)
+        for (int j = -spread.across; j <= spread.across; ++j) {
             const double u = 0.4 * i, v = 0.4 * j;
-            if (collider.kind() == glsl::kind_ellipsoid && std::hypot(u, v) > 0.9) continue;
-            if (rod)
+            if (std::hypot(u, v) > spread.farthest) continue;
+            if (spread.across == 0)
                 points.push_back({0, u * size[0], 0});
             else if (size[0] < size[1])
                 points.push_back({0, u * size[1], v * size[2]});

@@ -103,7 +103,7 @@ void lie(SceneDescription& scene, bool ball_moves) {
     scene.solver.method = SolverMethod::automatic;
     Cloth& cloth = scene.cloths[0];
     cloth.placement.origin[1] = cloth.thickness;
-    std::erase_if(scene.colliders, [](const Collider& each) { return !std::holds_alternative<Plane>(each.shape); });
+    std::erase_if(scene.colliders, [](const Collider& each) { return !special(each.shape).plane; });
     scene.colliders.push_back({.shape = Sphere{{0, 3, 0}, 0.2}});
     if (ball_moves) scene.colliders.back().path = {{{0, {0, 0, 0}, {0, 0, 0}}, {1e6, {0, 0, 0}, {0, 90, 0}}}};
 }

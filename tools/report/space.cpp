@@ -17,7 +17,7 @@
 #include "output/frame_writer.h"
 #include "output/json_text.h"
 #include "output/xml_text.h"
-#include "picture/collider_mesh.h"
+#include "picture/collider_surface.h"
 #include "picture/color_map.h"
 #include "picture/framing.h"
 #include "world/collider_pose.h"
@@ -162,9 +162,7 @@ Kept what_fits(const std::vector<ClothArrays>& cloths, const SceneDescription& s
 class Strains {
   public:
     Strains(const ClothArrays& arrays, const Cloth& cloth)
-        : arrays_(arrays),
-          along_rows_(cloth.size[0] / (cloth.grid[0] - 1)),
-          along_columns_(cloth.size[1] / (cloth.grid[1] - 1)) {}
+        : arrays_(arrays), along_rows_(grid_spacing(cloth)[0]), along_columns_(grid_spacing(cloth)[1]) {}
 
     /// The largest at every particle, 0 where all are below; shape [row, column].
     std::vector<double> largest(std::size_t frame) {
@@ -374,16 +372,15 @@ void put_mesh(Json::Value& json, const Collider& collider, std::span<const doubl
     json["triangles"] = base64_of(corners);
 }
 
+static_assert(std::variant_size_v<ColliderShape> == 6, "the page draws each kind by a row of `shapes` in viewer.js");
+
 Json::Value collider_json(const Collider& collider, const std::vector<double>& times, bool forms) {
-    const bool is_plane = std::holds_alternative<Plane>(collider.shape);
-    const auto pose_at = [&](double time) {
-        return is_plane ? plane_pose(collider, time) : collider_pose(collider, time);
-    };
+    const auto pose_at = [&](double time) { return surface_pose(collider, time); };
     Json::Value json = json_object({{"kind", std::string(collider_lists[collider.shape.index()])},
                                     {"size", json_of(shape_geometry(collider.shape).size)},
                                     {"color", json_of(collider.color)},
                                     {"poses", poses_json(times, collider.path.moves(), pose_at)}});
-    if (std::holds_alternative<Mesh>(collider.shape))
+    if (special(collider.shape).mesh)
         put_mesh(json, collider, std::span(times).first(collider.deforms() && forms ? times.size() : 1));
     return json;
 }

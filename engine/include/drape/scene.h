@@ -209,6 +209,13 @@ struct Cloth {
     bool operator==(const Cloth&) const = default;
 };
 
+/// Returns how far particles of the flat cloth are from each other, m: along columns, along rows.
+inline std::array<double, 2> grid_spacing(const Cloth& cloth) {
+    return {cloth.size[0] / (cloth.grid[0] - 1), cloth.size[1] / (cloth.grid[1] - 1)};
+}
+/// Returns the smaller of the two.
+inline double least_spacing(const Cloth& cloth) { return std::ranges::min(grid_spacing(cloth)); }
+
 struct Plane {
     Vec3 normal{0, 1, 0};  ///< unit length after reading; outside: normal . x >= offset
     double offset = 0.0;
@@ -266,6 +273,33 @@ using ColliderShape = std::variant<Plane, Sphere, Box, Ellipsoid, Capsule, Mesh>
 /// The scene file has one list per shape, in the same order.
 inline constexpr std::string_view collider_lists[] = {"planes", "spheres", "boxes", "ellipsoids", "capsules", "meshes"};
 static_assert(std::size(collider_lists) == std::variant_size_v<ColliderShape>);
+/// One of each list is called this.
+inline constexpr std::string_view collider_names[] = {"plane", "sphere", "box", "ellipsoid", "capsule", "mesh"};
+static_assert(std::size(collider_names) == std::variant_size_v<ColliderShape>);
+
+/// `std::visit` calls one of these functions, of which each kind has its own. None of them is a template, so that a
+/// kind that somebody adds does not compile until each room that asks has an answer for it.
+template <class... Functions>
+struct ForEachKind : Functions... {
+    using Functions::operator()...;
+};
+template <class... Functions>
+ForEachKind(Functions...) -> ForEachKind<Functions...>;
+
+/// Two kinds are unlike the others: a plane has no end, and a mesh has triangles, poses and a field of distances
+/// instead of a formula. Whoever needs one of the two asks here; the pointers go to the shape.
+struct SpecialShape {
+    const Plane* plane = nullptr;
+    const Mesh* mesh = nullptr;
+};
+inline SpecialShape special(const ColliderShape& shape) {
+    return std::visit(
+        ForEachKind{[](const Plane& plane) { return SpecialShape{.plane = &plane}; },
+                    [](const Sphere&) { return SpecialShape{}; }, [](const Box&) { return SpecialShape{}; },
+                    [](const Ellipsoid&) { return SpecialShape{}; }, [](const Capsule&) { return SpecialShape{}; },
+                    [](const Mesh& mesh) { return SpecialShape{.mesh = &mesh}; }},
+        shape);
+}
 
 /// `rotate` and `path` rotate about the collider's own centre (a plane's is the foot point normal * offset, a mesh's
 /// the middle of its bounding box); a path is applied on top of the rest pose.
@@ -277,7 +311,7 @@ struct Collider {
     Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
     int kind() const { return static_cast<int>(shape.index()); }
     bool deforms() const {
-        const Mesh* const mesh = std::get_if<Mesh>(&shape);
+        const Mesh* const mesh = special(shape).mesh;
         return mesh != nullptr && mesh->sequence != nullptr;
     }
     bool moves() const { return path.moves() || deforms(); }
