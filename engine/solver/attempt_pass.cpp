@@ -30,8 +30,8 @@ void add_copies_of_present(graph::Graph& graph, Pipelines& pipelines, ClothState
                            std::vector<Copy>& copies) {
     for (Copy& copy : copies) {
         const VkFormat format = declaration_of(graph, copy.from).format;
-        const auto value = [&](std::string_view name) -> std::uint32_t {
-            return format == (name == "scalar" ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT);
+        const auto value = [&](std::string_view constant) -> std::uint32_t {
+            return format == (constant == "scalar" ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT);
         };
         const std::uint32_t height = copy.height / state.count();
         const glsl::GridPush push{{static_cast<int>(copy.width), static_cast<int>(height)}};
