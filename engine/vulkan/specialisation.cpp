@@ -374,7 +374,7 @@ class Specialiser {
         }
     }
 
-    /// What the program writes for others stays, and so do push constants, which must be as C++ has them.
+    /// Outputs stay, and so do push constants, which must be as C++ has them.
     bool is_left_out(const Instruction& variable) const {
         return variable.op() == SpvOpVariable && !used_[variable.result()] &&
                variable.words[3] != SpvStorageClassOutput && variable.words[3] != SpvStorageClassPushConstant;
