@@ -1,11 +1,9 @@
-// This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. HOME brings
-// position and displacement back from the spare images, where an odd number of explicit steps leaves them, to those
-// that the next frame starts from, and CONTROL_HOME the line method's control, where an odd number of substeps leaves
-// it. EXCESS keeps how much faster the cloth is at the frame's end than in its last
-// substep.
+// This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. Where that
+// `comes_home`, position and displacement go back from the spare images, where an odd number of explicit steps leaves
+// them, to those that the next frame starts from; so may the line method's control, from where an odd number of substeps
+// leaves it. The pass may also keep how much faster the cloth is at the frame's end than in its last substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HOME|CONTROL_HOME EXCESS BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
@@ -13,18 +11,16 @@
 #include "include/verlet.h"
 PUSH_CONSTANTS(GridPush)
 #define TOGETHER
-#ifndef HOME
-#define IN_PLACE
-#endif
+layout(constant_id = 24) const bool comes_home = false;
+const bool in_place = !comes_home;
 #include "include/strips.h"
 #include "include/substep_state.h"
 
-#ifdef EXCESS
+layout(constant_id = 25) const bool keeps_excess = false;
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before;  // of the substep before the last
-VECTOR_OUT(10, EndExcessOut, end_excess_out);
-#endif
+VECTOR_OUT(10, end_excess_out);
 
-#ifdef CONTROL_HOME
+layout(constant_id = 26) const bool control_comes_home = false;
 layout(set = 0, binding = 11, r32ui) uniform readonly uimage2D line_control_in;
 layout(set = 0, binding = 12, r32ui) uniform writeonly uimage2D line_control_out;
 
@@ -34,24 +30,20 @@ void bring_control_home() {
     if (texel < control_texel_count && gl_GlobalInvocationID.y == 0u)
         imageStore(line_control_out, at, imageLoad(line_control_in, at));
 }
-#endif
 
 void finish(ivec2 texel) {
     vec4 moved = LOAD(displacement_in, texel);
     advance_position(texel, LOAD(position_in, texel), moved.xyz);
-#ifdef EXCESS
-    vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz);
-    STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
-#endif
-#ifdef HOME
+    if (keeps_excess) {
+        vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz);
+        STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
+    }
+    if (!comes_home) return;
     STORE_VECTOR(displacement_out, texel, moved);
     STORE_VECTOR(displacement_remainder_out, texel, LOAD(displacement_remainder_in, texel));
-#endif
 }
 
 void main() {
-#ifdef CONTROL_HOME
-    bring_control_home();
-#endif
+    if (control_comes_home) bring_control_home();
     FOR_STRIP(texel, push.grid, finish(texel))
 }

@@ -1,8 +1,7 @@
 // This plain kernel relaxes one colour of the bending elements of one axis with an invocation per element. Elements of
-// one colour share no particle. MASKED takes the spring shares from an image (holes, cuts).
+// one colour share no particle. Where `masked`, the spring shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/push.h"
@@ -15,18 +14,14 @@ CLOTH_CONSTANTS(BendPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/bend_target.h"
 
 float share_of(ivec2 owner) {
-#ifdef MASKED
-    return LOAD(spring_shares, owner)[push.channel];
-#else
+    if (masked) return LOAD(spring_shares, owner)[push.channel];
     return border_share(owner, push.axis, push.grid);
-#endif
 }
 
 void main() {

@@ -13,10 +13,9 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(GridPush)
 #define TOGETHER
 #include "include/state_store.h"
-#define MASKED
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
+VECTOR_OUT(2, displacement_out);
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 #include "include/bend_target.h"
 #include "include/bend_pull.h"

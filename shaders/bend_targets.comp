@@ -2,10 +2,9 @@
 // whose middle a particle is, and for the cell whose corner it is, an invocation writes the differences at rest, turned
 // as the particles are predicted to be, and what they pull at their tangents as the particles were when the substep
 // began. Both are taken for constant within the substep. Sides that are cut belong to no tangent. Every texel is
-// written. SECOND_ORDER asks the control whether this substep is BDF2.
+// written. In `second_order` the control says whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER
 #include "shared/bend_types.h"
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
@@ -23,9 +22,8 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D rest_shape;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D bend_targets;
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 5, r32ui) uniform readonly uimage2D line_control;
-#endif
 layout(constant_id = 0) const bool advance = false;  // as in explicit.comp
 
 /// The edge between two particles at rest, when the substep began and now, m.
@@ -87,12 +85,11 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy), last = push.grid - 1;
     if (texel.x > last.x || texel.y > last.y) return;
     vec4 stiffness = push.stiffness;
-#ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) {
-        stiffness = push.stiffness_bdf2;
-        pulls_now = true;
-    }
-#endif
+    if (second_order)
+        if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) {
+            stiffness = push.stiffness_bdf2;
+            pulls_now = true;
+        }
     ivec2 right = texel + ivec2(1, 0), below = texel + ivec2(0, 1);
     bool has_left = texel.x > 0, has_right = texel.x < last.x, has_up = texel.y > 0, has_down = texel.y < last.y;
     vec4 shares = LOAD(spring_shares, texel);

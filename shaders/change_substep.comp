@@ -1,8 +1,7 @@
 // This pass runs before a frame whose substeps have another length. It gives the state the history that substeps of
-// that length would have left. SECOND_ORDER does so for the line solver's history, too.
+// that length would have left. In `second_order` it does so for the line solver's history, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SECOND_ORDER
 #include "shared/closed_loop_types.h"
 #include "shared/simulation_types.h"
 #include "include/end_velocity.h"
@@ -18,10 +17,9 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D displacement_rem
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D end_excess_in;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D end_excess_out;
 layout(set = 0, binding = 5, std430) readonly buffer Attempt { SubstepChange attempt[]; };
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_before;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D velocity_excess;
-#endif
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -32,8 +30,7 @@ void main() {
     imageStore(displacement_out, placed(texel), vec4(changed.displacement, 0.0f));
     imageStore(displacement_remainder, placed(texel), vec4(0.0f, 0.0f, 0.0f, 0.0f));
     imageStore(end_excess_out, placed(texel), vec4(changed.excess, 0.0f));
-#ifdef SECOND_ORDER
+    if (!second_order) return;
     imageStore(displacement_before, placed(texel), vec4(changed.before, 0.0f));
     imageStore(velocity_excess, placed(texel), vec4(changed.excess_before, 0.0f));
-#endif
 }

@@ -1,8 +1,7 @@
-// Draws a cloth's surface; with SHADOWED, under the first light's shadow map. The front is the side from which a
+// Draws a cloth's surface, where `shadowed` under the first light's shadow map. The front is the side from which a
 // triangle's corners run counter-clockwise, which is the side its normal cross(along columns, along rows) points to.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SHADOWED
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/shading.h"

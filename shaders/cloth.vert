@@ -1,12 +1,9 @@
-// Makes a cloth's particles vertices: the index buffer alone drives it, position and normal come from the images. CUT
-// adds the vertices on its cut springs.
+// Makes a cloth's particles vertices: the index buffer alone drives it, position and normal come from the images. Where
+// it is `cut`, there are vertices on its cut springs, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CUT
 #include "shared/raster_types.h"
-#ifdef CUT
 #include "shared/cut_types.h"
-#endif
 #include "include/raster_frame.h"
 
 layout(push_constant) uniform Push { ClothPush push; };
@@ -48,15 +45,13 @@ void main() {
     uint index = uint(gl_VertexIndex);
     uint particle = index;
     world = vertex_position(index);
-#ifdef CUT
-    if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
-#endif
+    if (cut)
+        if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
     ivec2 texel = particle_texel(particle);
     surface_normal = imageLoad(normal, texel).xyz;
     material = vec2(texel) / (vec2(push.grid.xy) - 1.0) * push.size.xy;
-#ifdef CUT
-    if (is_cut_vertex(index)) material = cut_vertex(index).material.xy;
-#endif
+    if (cut)
+        if (is_cut_vertex(index)) material = cut_vertex(index).material.xy;
     hidden = hidden_by_folds(texel, particle_position(particle), surface_normal);
     gl_Position = clip_position(world);
     gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);

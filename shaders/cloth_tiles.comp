@@ -1,13 +1,10 @@
-// This pass marks the picture's tiles in which a cloth's triangles may be drawn, an invocation per triangle. CUT adds
-// the vertices on its cut springs.
+// This pass marks the picture's tiles in which a cloth's triangles may be drawn, an invocation per triangle. Where it is
+// `cut`, there are vertices on its cut springs, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CUT
 #include "shared/raster_types.h"
 #include "shared/simulation_types.h"
-#ifdef CUT
 #include "shared/cut_types.h"
-#endif
 #include "include/push.h"
 #include "include/raster_frame.h"
 #include "include/picture_tiles.h"

@@ -1,7 +1,6 @@
-// Draws a collider's surface; with SHADOWED, under the first light's shadow map.
+// Draws a collider's surface, where `shadowed` under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SHADOWED
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"

@@ -1,7 +1,6 @@
-// Draws colliders as their true shapes, one instance each. MESH takes triangles from a file.
+// Draws colliders as their true shapes, one instance each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MESH
 #include "shared/collider_types.h"
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"

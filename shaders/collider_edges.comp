@@ -1,11 +1,9 @@
 // This pass leads the cloth between particles out of edges and corners of boxes and meshes (include/collider_edges.h). It
 // writes an image of its own, as particles read their neighbours; the collision pass that follows goes on from there.
-// MASKED takes the triangles that exist from the cell image (holes, cuts). MESHES has triangle meshes among the
-// colliders.
+// Where `masked`, the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants MASKED MESHES|BUFFERED
 #include "shared/simulation_types.h"
 #include "include/collider_edges.h"
 #include "include/push.h"
@@ -20,10 +18,9 @@ CLOTH_CONSTANTS(CollisionPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;  // second round: as the first left it
-VECTOR_OUT(2, LiftedOut, lifted);
-#ifdef MASKED
+VECTOR_OUT(2, lifted);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D cells;
-#endif
 
 CutCorner corner_at(ivec2 texel, ColliderRecord collider) {
     vec4 start = LOAD(position, texel);
@@ -33,11 +30,8 @@ CutCorner corner_at(ivec2 texel, ColliderRecord collider) {
 
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
-#ifdef MASKED
-    return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
-#else
+    if (masked) return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
     return true;
-#endif
 }
 
 /// Records of at most this many boxes are read where nothing has branched yet (include/contacts.h).
@@ -61,7 +55,6 @@ bool near_edge_of(ColliderRecord collider, vec3 now) {
                          push.contact.x);
 }
 
-#ifdef MESHES
 /// Returns whether an edge leads from a particle below the plane that touches a mesh where it is nearest. Most particles
 /// lie on what is flat or bulges the other way; without this the default device would meet six triangles for each.
 bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
@@ -76,7 +69,6 @@ bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
     } while (k < edges_around_particle);
     return below && near_mesh(local, plane, collider, push.contact.x);
 }
-#endif
 
 #define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
 /// Returns whether a particle may meet an edge of a box or a mesh. In the second round only those may that were near
@@ -87,9 +79,10 @@ bool may_meet(ivec2 texel, vec4 start, vec4 moved) {
     if (!again) {
         EACH_BOX(NEAR_EDGE)
     }
-#ifdef MESHES
-    for (int i = capsules_end; i < meshes_end; ++i) near = near || leads_into(colliders[push.first + i], texel, now);
-#endif
+    if (has_meshes) {
+        for (int i = capsules_end; i < meshes_end; ++i)
+            near = near || leads_into(colliders[push.first + i], texel, now);
+    }
     return near && start.w != 0.0f;
 }
 
@@ -116,9 +109,8 @@ struct Led {
 /// The plane that touches a mesh is of the corner a.
 vec3 taken_by_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 plane, ColliderRecord collider,
                        bool is_mesh) {
-#ifdef MESHES
-    if (is_mesh) return with_mesh_triangle(taken, a, b, c, plane, collider, push.contact.w);
-#endif
+    if (has_meshes)
+        if (is_mesh) return with_mesh_triangle(taken, a, b, c, plane, collider, push.contact.w);
     return with_triangle(taken, a, b, c, collider, push.contact.w);
 }
 
@@ -126,12 +118,11 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
     vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
     vec3 taken = vec3(0.0f, 0.0f, 0.0f);
     vec4 plane = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-#ifdef MESHES
-    if (is_mesh) {
-        plane = touching_plane(local, true_mesh(collider));
-        near = near_mesh(local, plane, collider, push.contact.x);
-    }
-#endif
+    if (has_meshes)
+        if (is_mesh) {
+            plane = touching_plane(local, true_mesh(collider));
+            near = near_mesh(local, plane, collider, push.contact.x);
+        }
     int k = 0;
     do {
         ivec4 around = triangle_around(k);
@@ -145,9 +136,8 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
         ++k;
     } while (near && k < triangles_around_particle);
     vec3 surface = surface_displacement(collider, local);
-#ifdef MESHES
-    if (is_mesh) surface = mesh_displacement(collider, local);
-#endif
+    if (has_meshes)
+        if (is_mesh) surface = mesh_displacement(collider, local);
     float friction = skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy).y;
     return Led(taken_displacement(led.moved, taken, surface, collider, friction),
                led.touched || ordered_dot(taken, taken) > 0.0f);
@@ -163,11 +153,10 @@ vec4 led_by_all(ivec2 texel) {
     vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
     Led led = Led(before.xyz, again && before.w > 0.0f);
     EACH_BOX(LED_BY)
-#ifdef MESHES
-    for (int i = capsules_end; i < meshes_end; ++i) {
-        led = led_by(colliders[push.first + i], texel, start, led, true, true);
+    if (has_meshes) {
+        for (int i = capsules_end; i < meshes_end; ++i)
+            led = led_by(colliders[push.first + i], texel, start, led, true, true);
     }
-#endif
     return vec4(led.moved, led.touched ? 1.0f : -1.0f);
 }
 

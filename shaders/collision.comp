@@ -1,13 +1,12 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
-// the scene has. A particle that is touched has the velocity of the displacement that it is left with. HISTORY has the
-// cloth go on in backward Euler substeps (include/bdf2.h). LED goes on from what collider_edges.comp left. SUPPORTING
-// keeps the surfaces that particles lie on, for contact between cloths. AFTER_IMPULSES does that too, and goes on from
-// what contact between cloths has made of the displacements on their sheet; it leaves them there as well. MESHES has
-// triangle meshes among the colliders.
+// the scene has. A particle that is touched has the velocity of the displacement that it is left with. In
+// `second_order` the cloth goes on in backward Euler substeps (include/bdf2.h). `after_edges`, this goes on from what
+// collider_edges.comp left. Where `supporting`, it keeps the surfaces that particles lie on, for contact between cloths.
+// `after_impulses` does that too, and goes on from what contact between cloths has made of the displacements on their
+// sheet; it leaves them there as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants HISTORY LED SUPPORTING|AFTER_IMPULSES MESHES|BUFFERED
 #include "shared/line_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
@@ -22,46 +21,35 @@ CLOTH_CONSTANTS(CollisionPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-VECTOR_KEPT(3, DisplacementBefore, displacement_before);
-#ifdef HISTORY
+VECTOR_OUT(2, displacement_out);
+VECTOR_KEPT(3, displacement_before);
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
-#endif
-#ifdef LED
+layout(constant_id = 24) const bool after_edges = false;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D lifted;
-#endif
-
-#ifndef AFTER_IMPULSES
-TRIPLE_OUT(10, PositionOut, position_out);
-#else
-#define SUPPORTING
-layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacements_in;  // w: bits (self_sheet.h)
-VECTOR_OUT(12, DisplacementsOut, displacements_out);
-layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
-layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
-#endif
-
-#ifdef SUPPORTING
+layout(constant_id = 25) const bool supporting = false;
 layout(set = 0, binding = 8, rgba32f) uniform writeonly image2D support;
 layout(set = 0, binding = 9, rgba32f) uniform writeonly image2D support_grip;
-#endif
+layout(constant_id = 26) const bool after_impulses = false;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacements_in;  // w: bits (self_sheet.h)
+VECTOR_OUT(12, displacements_out);
+layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
+layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
+TRIPLE_OUT(10, position_out);  // not `after_impulses`
 
 vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }
 
 vec4 moved_at(ivec2 texel) {
-#ifdef AFTER_IMPULSES
-    return imageLoad(displacements_in, push.laid + texel);
-#else
+    if (after_impulses) return imageLoad(displacements_in, push.laid + texel);
     return LOAD(displacement_in, texel);
-#endif
 }
 
 /// Stores a displacement where `moved_at` found `moved`.
 void leave(ivec2 texel, vec3 displacement, vec4 moved) {
-#ifdef AFTER_IMPULSES
-    STORE_IN_COLUMNS(displacements_out, push.laid + texel, push.sheet_columns, vec4(displacement, moved.w));
-    moved = LOAD(displacement_in, texel);
-#endif
+    if (after_impulses) {
+        STORE_IN_COLUMNS(displacements_out, push.laid + texel, push.sheet_columns, vec4(displacement, moved.w));
+        moved = LOAD(displacement_in, texel);
+    }
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 }
 
@@ -71,7 +59,10 @@ void leave(ivec2 texel, vec3 displacement, vec4 moved) {
 vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     vec3 whole = displacement, led = led_sum(start.xyz, way_out);
     displacement = displacement_of_own(displacement, way_out);
-#ifdef AFTER_IMPULSES
+    if (!after_impulses) {
+        STORE_TRIPLE(position_out, texel, led, start.w);
+        return displacement;
+    }
     vec3 way = way_between(start.xyz, led);
     if (is_rounding(start.xyz, way)) return displacement;
     ivec2 laid = push.laid + texel;
@@ -79,31 +70,23 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     led_ways[place] = vec4(way, 0.0f);
     before[place].w = before[place].w != 0.0f ? self_pushed_and_led : self_led_out;
     return whole;
-#else
-    STORE_TRIPLE(position_out, texel, led, start.w);
-    return displacement;
-#endif
 }
 
 /// Returns what is kept as the displacement of the substep before that of a particle that is touched, so that it is not
 /// taken to rebound: its displacement, which self_return.comp will change where impulses pushed it.
 vec3 before_touched(ivec2 texel, vec3 displacement) {
-#ifdef AFTER_IMPULSES
+    if (!after_impulses) return displacement;
     ivec2 laid = push.laid + texel;
     vec4 was = before[laid.y * push.sheet_columns + laid.x];
     if (was.w == self_pushed || was.w == self_pushed_and_led) return was.xyz;
-#endif
     return displacement;
 }
 
 /// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a collider led it:
 /// above 0 if one did.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
-#ifdef LED
-    return LOAD(lifted, texel);
-#else
+    if (after_edges) return LOAD(lifted, texel);
     return vec4(moved.xyz, 0.0f);
-#endif
 }
 
 /// Part of a column.
@@ -145,8 +128,8 @@ uint near_colliders(Strip strip, int begin, int count) {
 /// Returns the rows of a strip that may touch a collider after the early ones.
 uint late_rows(Strip strip) {
     uint rows = 0u;
-    for (int begin = early_collider_count; begin < COLLIDERS_END; begin += 32)
-        for (uint near = near_colliders(strip, begin, min(32, COLLIDERS_END - begin)); near != 0u; near &= near - 1u) {
+    for (int begin = early_collider_count; begin < meshes_end; begin += 32)
+        for (uint near = near_colliders(strip, begin, min(32, meshes_end - begin)); near != 0u; near &= near - 1u) {
             vec4 ball = collider_ball(push.first, begin + findLSB(near), strip.way, push.contact.x);
             for (int k = 0; k < strip.count; ++k) {
                 ivec2 texel = ivec2(strip.column, strip.first + k);
@@ -157,6 +140,13 @@ uint late_rows(Strip strip) {
             }
         }
     return rows;
+}
+
+/// Has the cloth go on in backward Euler substeps. The load spares an atomic, as most particles that come here find the
+/// hold set.
+void hold_order() {
+    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
 }
 
 /// Returns whether that is done. It is not where a particle goes so far that its way has to be followed, unless this
@@ -188,22 +178,16 @@ bool meet_all(ivec2 texel, bool follows) {
                     ? led_out(texel, start, displacement, way_out)
                     : displacement;
     leave(texel, made, moved);
-#ifdef SUPPORTING
-    vec3 touches = displacement;
-#ifdef AFTER_IMPULSES
-    touches = grip.xyz;  // the next substep starts where this one leaves the particle
-#endif
-    if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a collider led it
-        imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
-        imageStore(support_grip, placed(texel), grip);
+    if (supporting) {
+        vec3 touches = displacement;
+        if (after_impulses) touches = grip.xyz;  // the next substep starts where this one leaves the particle
+        if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a collider led it
+            imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
+            imageStore(support_grip, placed(texel), grip);
+        }
     }
-#endif
     STORE_VECTOR(displacement_before, texel, vec4(before_touched(texel, displacement), 0.0f));
-#ifdef HISTORY
-    // The load spares an atomic, as most particles that come here find the hold set.
-    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
-        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
-#endif
+    if (second_order) hold_order();
     return true;
 }
 
@@ -213,7 +197,7 @@ void main() {
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
-    if (COLLIDERS_END > early_collider_count) strip.rows |= late_rows(strip);
+    if (meshes_end > early_collider_count) strip.rows |= late_rows(strip);
     // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
     // for a particle.
     // For the same reason those that go far are kept for a loop of their own.

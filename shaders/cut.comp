@@ -1,9 +1,8 @@
 // This pass finds the springs and triangles that the cutters cross at the end of a frame: each particle tests the four
-// springs that it owns and the two triangles of its cell against every active triangle of the cutters. MASKED leaves
-// out springs and triangles that are gone.
+// springs that it owns and the two triangles of its cell against every active triangle of the cutters. Where
+// `masked`, springs and triangles that are gone are left out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "shared/cut_types.h"
 #include "include/cut.h"
@@ -16,10 +15,9 @@ layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D cut_flags;  // 2 
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  // by owned spring; -1: not crossed
 layout(set = 0, binding = 3, std430) readonly buffer Cutters { CutterTriangle cutters[]; };
 layout(set = 0, binding = 4, std430) buffer Count { uint count[]; };  // springs crossed
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 6, r32ui) uniform readonly uimage2D cells;
-#endif
 
 vec3 particle(ivec2 at) { return imageLoad(position, at).xyz; }
 
@@ -53,18 +51,18 @@ void main() {
             lower = lower || triangles_intersect(right, across, below, cutter.a.xyz, cutter.b.xyz, cutter.c.xyz);
         }
     }
-#ifdef MASKED
-    vec4 share = imageLoad(spring_shares, texel);
-    if (share.x == 0.0f) found.x = not_crossed;
-    if (share.y == 0.0f) found.y = not_crossed;
-    if (share.z == 0.0f) found.z = not_crossed;
-    if (share.w == 0.0f) found.w = not_crossed;
-    if (has_right && has_below) {
-        uint present = imageLoad(cells, texel).x;
-        upper = upper && (present & 1u) != 0u;
-        lower = lower && (present & 2u) != 0u;
+    if (masked) {
+        vec4 share = imageLoad(spring_shares, texel);
+        if (share.x == 0.0f) found.x = not_crossed;
+        if (share.y == 0.0f) found.y = not_crossed;
+        if (share.z == 0.0f) found.z = not_crossed;
+        if (share.w == 0.0f) found.w = not_crossed;
+        if (has_right && has_below) {
+            uint present = imageLoad(cells, texel).x;
+            upper = upper && (present & 1u) != 0u;
+            lower = lower && (present & 2u) != 0u;
+        }
     }
-#endif
     imageStore(cut_fractions, texel, found);
     if (has_right && has_below) {
         imageStore(cut_flags, ivec2(2 * texel.x, texel.y), uvec4(upper ? 1u : 0u));

@@ -1,19 +1,17 @@
 // This pass makes the picture's bytes from its radiance, once per pixel, where an sRGB attachment would encode every
 // sample. Backdrop and floor show where samples are left uncovered, and are drawn here alone, as triangles for them
 // cost twice as much. An ordered dither of one level (Bayer's 8 x 8 matrix) stands in place of rounding, without which
-// soft gradients show bands. SHADOWED puts the floor under the first light's shadow map. SAMPLED averages four samples
+// soft gradients show bands. Where `shadowed`, the floor is under the first light's shadow map. Where `sampled`, it averages four samples
 // a pixel itself, as resolving them first takes the default device twice as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SHADOWED SAMPLED
 #include "shared/raster_types.h"
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/raster_frame.h"
-#ifdef SHADOWED
 #include "include/shadow_map.h"
-#endif
 #include "include/plane.h"
+layout(constant_id = 25) const bool shadowed = false;
 #include "include/floor.h"
 #include "include/picture_tiles.h"
 #include "include/tone.h"
@@ -22,16 +20,14 @@ layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool has_floor = true;
 PUSH_CONSTANTS(GridPush)  // pixels
 #include "include/strips.h"
-#ifdef SAMPLED
-layout(set = 0, binding = 1, rgba16f) uniform readonly image2DMS light;
-vec4 light_at(ivec2 pixel) {
-    return 0.25 * ((imageLoad(light, pixel, 0) + imageLoad(light, pixel, 1)) +
-                   (imageLoad(light, pixel, 2) + imageLoad(light, pixel, 3)));
-}
-#else
+layout(constant_id = 24) const bool sampled = false;
 layout(set = 0, binding = 1, rgba16f) uniform readonly image2D light;
-vec4 light_at(ivec2 pixel) { return imageLoad(light, pixel); }
-#endif
+layout(set = 0, binding = 1, rgba16f) uniform readonly image2DMS samples;
+vec4 light_at(ivec2 pixel) {
+    if (!sampled) return imageLoad(light, pixel);
+    return 0.25 * ((imageLoad(samples, pixel, 0) + imageLoad(samples, pixel, 1)) +
+                   (imageLoad(samples, pixel, 2) + imageLoad(samples, pixel, 3)));
+}
 layout(set = 0, binding = 2, std430) writeonly buffer Pixels { uint pixels[]; };  // on the host; red in the lowest byte
 
 layout(set = 0, binding = 4, std430) readonly buffer Tiles { uint tiles[]; };

@@ -1,10 +1,10 @@
 // This pass is an explicit step: it finishes the last substep (X += d, after the first substep of a frame), gathers the
 // springs around each particle and takes the next step. It reads neighbours, so it writes the other image of each pair,
-// every texel of it. WIND adds the wind's force. MASKED takes the spring shares from an image (holes, cuts). Particles
+// every texel of it. Where `windy`, it adds the
+// wind's force. Where `masked`, it takes the spring shares from an image (holes, cuts). Particles
 // with w = 0 feel no force; the pin pass moves those that the user moves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED WIND BUFFERED
 #include "shared/bend_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
@@ -16,24 +16,22 @@
 #include "include/wind.h"
 CLOTH_CONSTANTS(ExplicitPush)
 #define TOGETHER
+const bool in_place = false;
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/bend_target.h"
-#ifdef MASKED
 #include "include/bend_pull.h"
-#endif
 
 struct Particle {
     ivec2 texel;
     vec3 position;
     vec3 displacement;
-    vec4 shares;  // shares of the springs that it owns, where MASKED
+    vec4 shares;  // shares of the springs that it owns, where `masked`
 };
 
 bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y; }
@@ -42,9 +40,7 @@ bool inside(ivec2 texel) { return texel.x >= 0 && texel.y >= 0 && texel.x < push
 Particle particle_at(ivec2 texel) {
     Particle particle =
         Particle(texel, LOAD(position_in, texel).xyz, LOAD(displacement_in, texel).xyz, vec4(0.0f));
-#ifdef MASKED
-    particle.shares = LOAD(spring_shares, texel);
-#endif
+    if (masked) particle.shares = LOAD(spring_shares, texel);
     return particle;
 }
 
@@ -55,11 +51,8 @@ vec3 edge_between(Particle from, Particle to) {
 }
 
 float share_of(Particle owner, ivec2 offset, int channel) {
-#ifdef MASKED
-    return owner.shares[channel];
-#else
+    if (masked) return owner.shares[channel];
     return border_share(owner.texel, offset, push.grid);
-#endif
 }
 
 vec3 gather(vec3 sum, Particle center, ivec4 around) {
@@ -104,12 +97,9 @@ vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle l
                  float factor) {
     vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));
     difference = beyond_rest(difference, bend_target(upper_left.texel, 2));
-#ifdef MASKED
+    if (!masked) return add_bend(sum, difference, factor);
     precise float scaled = factor * twist_share(upper_left.shares, upper_right.shares, lower_left.shares);
     return add_bend(sum, difference, scaled);
-#else
-    return add_bend(sum, difference, factor);
-#endif
 }
 
 /// Adds the twist of the up to four cells around this particle, row by row.
@@ -148,9 +138,7 @@ void main() {
         return;
     }
     Particle center = Particle(texel, position.xyz, displacement, vec4(0.0f));
-#ifdef MASKED
-    center.shares = LOAD(spring_shares, texel);
-#endif
+    if (masked) center.shares = LOAD(spring_shares, texel);
     vec3 pull = empty_sum();
     pull = gather(pull, center, neighbour(0));
     pull = gather(pull, center, neighbour(1));
@@ -164,9 +152,7 @@ void main() {
         pull = gather_bend(pull, center, ivec2(1, 0), 0, push.bend.x);
         pull = gather_bend(pull, center, ivec2(0, 1), 1, push.bend.y);
         pull = gather_twist(pull, center);
-#ifdef MASKED
         if (own_rest) pull = add_pull_of(pull, bend_pull(texel), 1.0f);
-#endif
     }
     vec4 force = force_on(texel);
     vec3 increment = explicit_increment(displacement, push.gravity_step.xyz, force.xyz, pull, position.w,

@@ -3,14 +3,12 @@
 // step in flight, the row whose lower neighbours are still to come. Every spring is evaluated once; its other end sees
 // the negated numbers. Column neighbours across invocations come by shuffle, so a step makes one more column at either
 // end of a strip useless: strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Loops are left to the
-// driver, since spirv-opt loses the `precise` of those that it is told to unroll. MASKED takes the spring shares from
-// an image.
+// driver, since spirv-opt loses the `precise` of those that it is told to unroll. Where `masked`, the spring shares
+// come from an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED
-#define BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
 #include "include/explicit.h"
@@ -24,16 +22,15 @@ CLOTH_CONSTANTS(ExplicitPush)
 
 layout(local_size_x = stream_lanes) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-VECTOR_OUT(1, PositionOut, position_out);
+VECTOR_OUT(1, position_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(3, DisplacementOut, displacement_out);
+VECTOR_OUT(3, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
-VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
+VECTOR_OUT(5, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
-#ifdef MASKED
+VECTOR_OUT(7, displacement_remainder_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
-#endif
 
 layout(constant_id = 0) const bool has_shear = false;
 layout(constant_id = 1) const int steps = stream_steps;
@@ -97,12 +94,12 @@ ivec2 nearest_inside(int x, int y) {
 /// Returns the shares of the springs that a particle owns, by direction: half along the grid's borders and 0 for a
 /// spring that leaves the grid. Outside it they are 0 or 1, which reaches nothing that is stored.
 vec4 shares_of(int x, int y) {
-#ifdef MASKED
-    vec4 shares = LOAD(spring_shares, nearest_inside(x, y));
-#else
-    vec4 shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
-                       border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);
-#endif
+    vec4 shares;
+    if (masked)
+        shares = LOAD(spring_shares, nearest_inside(x, y));
+    else
+        shares = vec4(border_share(ivec2(x, y), ivec2(1, 0), push.grid),
+                      border_share(ivec2(x, y), ivec2(0, 1), push.grid), 1.0f, 1.0f);
     bool right = x + 1 < push.grid.x, below = y >= 0 && y + 1 < push.grid.y;
     return vec4(right ? shares.x : 0.0f, below ? shares.y : 0.0f, right && below ? shares.z : 0.0f,
                 x > 0 && x < push.grid.x && below ? shares.w : 0.0f);

@@ -2,10 +2,9 @@
 // explicit.comp. It is for devices that run many invocations: a workgroup holds a tile of particles, one per
 // invocation, and shows them to each other in shared memory after every step. The outermost particles lack neighbours,
 // so their error spreads inwards by one particle a step; therefore tiles overlap by 2 * `halo`, and one that holds the
-// whole cloth needs none. MASKED is that of explicit.comp.
+// whole cloth needs none. `masked` is that of explicit.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
 #include "include/explicit.h"
@@ -20,16 +19,15 @@ CLOTH_CONSTANTS(ExplicitPush)
 const int tile_width = explicit_tile_width;
 layout(local_size_x = tile_width, local_size_y = tile_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-VECTOR_OUT(1, PositionOut, position_out);
+VECTOR_OUT(1, position_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(3, DisplacementOut, displacement_out);
+VECTOR_OUT(3, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
-VECTOR_OUT(5, PositionRemainderOut, position_remainder_out);
+VECTOR_OUT(5, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-VECTOR_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
-#ifdef MASKED
+VECTOR_OUT(7, displacement_remainder_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D spring_shares;
-#endif
 
 layout(constant_id = 0) const bool has_shear = false;
 layout(constant_id = 1) const int steps = 1;
@@ -64,11 +62,8 @@ void show(Particle particle) {
 }
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
-#ifdef MASKED
-    return LOAD(spring_shares, owner)[channel];
-#else
+    if (masked) return LOAD(spring_shares, owner)[channel];
     return border_share(owner, offset, push.grid);
-#endif
 }
 
 /// Adds the pull of the spring to neighbour k.

@@ -1,32 +1,28 @@
 // This pass is Verlet's prediction under gravity and damping: it finishes the last substep (X += d, after the first
-// substep of a frame) and predicts the next displacement. WIND adds the wind's force. Particles with w = 0 feel no
-// force; the pin pass moves those that the user moves. BEFORE, in the last substep of a frame, keeps the displacement
-// of the one before it.
+// substep of a frame) and predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 feel no
+// force; the pin pass moves those that the user moves. In the last substep of a frame it may keep the
+// displacement of the one before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIND BEFORE BUFFERED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/verlet.h"
 CLOTH_CONSTANTS(ForcePush)
 #define TOGETHER
 #include "include/strips.h"
-#define IN_PLACE
+const bool in_place = true;
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-#ifdef BEFORE
-VECTOR_OUT(9, DisplacementBefore, displacement_before);
-#endif
+layout(constant_id = 24) const bool keeps_before = false;
+VECTOR_OUT(9, displacement_before);
 
 void predict(ivec2 texel) {
     vec4 position = LOAD(position_in, texel);
     vec4 moved = LOAD(displacement_in, texel);
     vec3 displacement = moved.xyz;
     if (advance) advance_position(texel, position, displacement);
-#ifdef BEFORE
-    STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
-#endif
+    if (keeps_before) STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     if (position.w == 0.0f) {
         STORE_VECTOR(displacement_out, texel, moved);
         return;

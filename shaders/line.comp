@@ -1,20 +1,15 @@
 // This pass solves the springs of one direction line by line: one invocation solves a line by Thomas' algorithm, in
 // three walks along it. The lines of a direction share no particle, so the displacement is updated in place. The
-// control says whether this substep is BDF2, and counts the lines that met a spring too wrong. MASKED takes the spring
-// shares from an image (holes, cuts). BENT gives the line stiffness against bending.
+// control says whether this substep is BDF2, and counts the lines that met a spring too wrong. Where `masked`, the
+// spring shares come from an image (holes, cuts). Where the cloth `bends`, the line is stiff against bending.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BENT BUFFERED
-#ifdef BUFFERED
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#endif
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/line.h"
 #include "include/in_pairs.h"
-#ifdef BENT
 #include "include/bent_line.h"
-#endif
 #include "include/verlet.h"
 #include "include/push.h"
 
@@ -24,27 +19,24 @@ CLOTH_CONSTANTS(LinePush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-TRIPLE_OUT(2, DisplacementOut, displacement_out);
+TRIPLE_OUT(2, displacement_out);
 // The scratch has two texels for each particle p of a line. The first walk leaves the eliminated particle in the first
 // texel and, where the line bends, in x of the second. The second walk replaces them: the first texel then holds in xyz
 // the change of displacement by the first system and in w the tension that this leaves the spring after p, and the
 // second in xy that spring, eliminated. An invocation reads what it wrote itself. Buffers take both as pairs of floats,
 // since on the default device every store is a loop of its own over the lanes, whose rounds cost by the element.
 layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D line_scratch_in;
-#ifdef BUFFERED
 struct TwoTexels {
     u64vec3 pairs;
     uint64_t unused;
 };
-layout(set = 0, binding = 4, std430) coherent writeonly buffer ScratchOut { TwoTexels line_scratch_out[]; };
-#else
-coherent VECTOR_OUT(4, ScratchOut, line_scratch_out);
-#endif
+IMAGE(coherent writeonly, 4, rgba32f, line_scratch_out);
+VIEW(coherent writeonly, 4, TwoTexels, line_scratch_out, pairs);
 layout(set = 0, binding = 5, r32f) uniform readonly image2D tension_in;
-SCALAR_OUT(6, TensionOut, tension_out);
-#ifdef MASKED
+SCALAR_OUT(6, tension_out);
+layout(constant_id = 21) const bool masked = false;
+layout(constant_id = 24) const bool bends = false;
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D spring_shares;
-#endif
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
 layout(constant_id = 0) const bool first_iteration = true;  // solves both systems; later ones repeat the second alone
 
@@ -65,35 +57,32 @@ vec4 load_first(Line line, int p) { return imageLoad(line_scratch_in, scratch_te
 
 vec2 load_second(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p) + 1)).xy; }
 
-#ifdef BUFFERED
 uint64_t pair(float low, float high) { return packUint2x32(uvec2(floatBitsToUint(low), floatBitsToUint(high))); }
-#endif
 
 void store_first(Line line, int p, vec4 first) {
-#ifdef BUFFERED
-    line_scratch_out[place(line, p)].pairs.xy = u64vec2(pair(first.x, first.y), pair(first.z, first.w));
-#else
-    imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
-#endif
+    if (buffered)
+        line_scratch_out_pairs.line_scratch_out[place(line, p)].pairs.xy =
+            u64vec2(pair(first.x, first.y), pair(first.z, first.w));
+    else
+        imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
 }
 
 void store_scratch(Line line, int p, vec4 first, vec2 second) {
-#ifdef BUFFERED
-    line_scratch_out[place(line, p)].pairs =
-        u64vec3(pair(first.x, first.y), pair(first.z, first.w), pair(second.x, second.y));
-#else
+    if (buffered) {
+        line_scratch_out_pairs.line_scratch_out[place(line, p)].pairs =
+            u64vec3(pair(first.x, first.y), pair(first.z, first.w), pair(second.x, second.y));
+        return;
+    }
     imageStore(line_scratch_out, scratch_texel(2 * place(line, p)), first);
     imageStore(line_scratch_out, scratch_texel(2 * place(line, p) + 1), vec4(second, 0.0f, 0.0f));
-#endif
 }
 
-#ifdef BENT
 void store_bent(Line line, int p, BentParticle particle) {
     store_scratch(line, p, vec4(particle.turn, particle.by_turn), vec2(particle.by_shift, 0.0f));
 }
 
-/// A walk from the line's start on knows this before it eliminates particle p.
-struct ParticleWalk {
+/// A walk from the start of a line that bends knows this before it eliminates particle p.
+struct BentWalk {
     int p;
     LineParticle particle, next;
     vec3 edge;    // between `particle` and `next`, m
@@ -102,7 +91,7 @@ struct ParticleWalk {
 };
 
 /// Eliminates particle p. A share of 0 for the spring after its own says that there is none.
-void eliminate_between(Line line, inout ParticleWalk walk, vec3 edge_after, float share_after) {
+void eliminate_between(Line line, inout BentWalk walk, vec3 edge_after, float share_after) {
     float stiffness = stiffness_of(line, walk.particle, walk.next, walk.share);
     vec3 difference = beyond_rest(second_difference(-walk.edge, edge_after), bend_target(walk.next.at, line.channel));
     BentParticle eliminated = eliminate_bent(walk.bent, walk.edge, stiffness, difference,
@@ -112,7 +101,7 @@ void eliminate_between(Line line, inout ParticleWalk walk, vec3 edge_after, floa
     ++walk.p;
 }
 
-void eliminate_next(Line line, inout ParticleWalk walk) {
+void eliminate_next(Line line, inout BentWalk walk) {
     LineParticle after = particle_after(line, walk.next);
     vec3 edge_after = start_edge_of(walk.next, after);
     float share_after = share_of(line, walk.next.at);
@@ -123,17 +112,17 @@ void eliminate_next(Line line, inout ParticleWalk walk) {
     walk.share = share_after;
 }
 
-/// Eliminates in the first system, from the line's start on.
-void eliminate_particles(Line line) {
+/// Eliminates in the first system of a line that bends, from its start on.
+void eliminate_bent_particles(Line line) {
     LineParticle particle = load_particle(line_start(line.index, line.step));
     LineParticle next = particle_after(line, particle);
-    ParticleWalk walk = ParticleWalk(0, particle, next, start_edge_of(particle, next), share_of(line, particle.at),
+    BentWalk walk = BentWalk(0, particle, next, start_edge_of(particle, next), share_of(line, particle.at),
                                      unbent_line());
     IN_PAIRS(line.last - 1, eliminate_next(line, walk))  // a line has two particles at least
     eliminate_between(line, walk, vec3(0.0f, 0.0f, 0.0f), 0.0f);
     store_bent(line, line.last, eliminate_last_bent(walk.bent, walk.next.position.w));
 }
-#else
+
 /// A walk from the line's start on knows this before it eliminates particle p.
 struct ParticleWalk {
     int p;
@@ -165,18 +154,14 @@ void eliminate_particles(Line line) {
                                          walk.particle.position.w);
     store_first(line, line.last, walk.eliminated.row);
 }
-#endif
 
 /// Returns the change of particle p by the first system, given that of the particle after it. `turn` is how the edge
 /// after that particle turns, and becomes how the edge after p does.
 vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
     if (!first_iteration) return vec3(0.0f, 0.0f, 0.0f);
-#ifdef BENT
+    if (!bends) return substitute_particle(load_first(line, p), delta_after);
     turn = substitute_turn(load_first(line, p), load_second(line, p).x, turn, delta_after);
     return bent_delta(delta_after, turn);
-#else
-    return substitute_particle(load_first(line, p), delta_after);
-#endif
 }
 
 /// A walk from the line's end back knows this before it eliminates spring e.
@@ -283,7 +268,12 @@ void substitute_springs(Line line) {
 void main() {
     if (int(gl_GlobalInvocationID.x) >= push.line_count) return;
     Line line = read_line(int(gl_GlobalInvocationID.x));
-    if (first_iteration) eliminate_particles(line);
+    if (first_iteration) {
+        if (bends)
+            eliminate_bent_particles(line);
+        else
+            eliminate_particles(line);
+    }
     float largest = eliminate_springs(line);
     substitute_springs(line);
     if (line_is_wrong(largest, line.rest_length)) imageAtomicAdd(line_control, ivec2(control_wrong_lines, cloth_place()), 1u);

@@ -1,17 +1,14 @@
 // This kernel solves the springs of one direction line by line, as line.comp does, on devices that run many
 // invocations. It has one per particle and a workgroup per line, or for several short ones, and solves both systems by
 // parallel cyclic reduction. A workgroup reads all of its lines before it writes any of them, so the displacement is
-// updated in place. MASKED and BENT are those of line.comp.
+// updated in place. `masked` and `bends` are those of line.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BENT
 #include "shared/cyclic_types.h"
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/cyclic.h"
-#ifdef BENT
 #include "include/cyclic_bent.h"
-#endif
 #include "include/push.h"
 #include "include/verlet.h"
 
@@ -21,20 +18,18 @@ CLOTH_CONSTANTS(LinePush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-TRIPLE_OUT(2, DisplacementOut, displacement_out);
+TRIPLE_OUT(2, displacement_out);
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_in;
-SCALAR_OUT(4, TensionOut, tension_out);
-#ifdef MASKED
+SCALAR_OUT(4, tension_out);
+layout(constant_id = 21) const bool masked = false;
+layout(constant_id = 24) const bool bends = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
-#endif
 layout(set = 0, binding = 6, r32ui) uniform uimage2D line_control;
 layout(constant_id = 2) const bool first_iteration = true;
 
 #include "include/line_particles.h"
 #include "include/cyclic_group.h"
-#ifdef BENT
 #include "include/cyclic_bent_group.h"
-#endif
 shared uint wrong[gl_WorkGroupSize.y];  // by line: whether one of its springs is wrong
 
 /// One invocation's part of its line: a particle, the one after it and the spring between them.
@@ -54,7 +49,6 @@ Part read_part(Line line, bool is_line) {
                 has_spring ? share_of(line, first.at) : 0.0f);
 }
 
-#ifdef BENT
 /// The target of a place of the line; beyond its ends, where nothing bends, that of the end.
 vec3 target_at(Line line, int p) {
     int near = p < 0 ? 0 : p > line.last ? line.last : p;
@@ -64,25 +58,24 @@ vec3 target_at(Line line, int p) {
 BentTargets targets_around(Line line) {
     return BentTargets(target_at(line, group_place - 1), target_at(line, group_place), target_at(line, group_place + 1));
 }
-#endif
 
 /// Solves the first system. Returns the change of this particle's displacement, m.
 vec3 delta_of(Line line, Part part) {
     vec3 edge = part.has_spring ? start_edge_of(part.first, part.second) : vec3(0.0f, 0.0f, 0.0f);
     float stiffness = part.has_spring ? stiffness_of(line, part.first, part.second, part.share) : 0.0f;
-#ifdef BENT
-    hand_out(vec4(edge, stiffness), vec2(part.share, 0.0f));
-    BentRow row = bent_row(spring_of_neighbour(-2), spring_of_neighbour(-1), spring_of_neighbour(0),
-                           spring_of_neighbour(1), targets_around(line), line.bend, part.first.position.w, is_second());
-    if (!part.exists) row = no_bent_row(is_second());
-    return bent_solution_of(row, line.last + 1);
-#else
+    if (bends) {
+        hand_out(vec4(edge, stiffness), vec2(part.share, 0.0f));
+        BentRow row =
+            bent_row(spring_of_neighbour(-2), spring_of_neighbour(-1), spring_of_neighbour(0), spring_of_neighbour(1),
+                     targets_around(line), line.bend, part.first.position.w, is_second());
+        if (!part.exists) row = no_bent_row(is_second());
+        return bent_solution_of(row, line.last + 1);
+    }
     hand_out(vec4(edge, stiffness));
     vec4 before = from_neighbour(-1);
     CyclicRow row = particle_row(before.xyz, before.w, edge, stiffness, part.first.position.w);
     if (!part.exists) row = no_cyclic_row();
     return cyclic_solution(uncoupled(row, line.last + 1));
-#endif
 }
 
 /// Solves the second system. Returns the change of the spring's multiplier.

@@ -2,13 +2,12 @@
 // not bend: an invocation has eight particles of its line, in registers (include/part_group.h), so that a workgroup
 // waits for its invocations five times, however long the lines are. Particles are loaded and stored where invocations
 // beside each other have texels beside each other, two lines at once, and are handed within a subgroup to those that
-// own them. MASKED is that of line.comp. What is done for every particle is written out: code that spirv-opt unrolls is
+// own them. `masked` is that of line.comp. What is done for every particle is written out: code that spirv-opt unrolls is
 // not precise any more, and arrays that are not indexed by constants would be no registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED
 #include "shared/line_types.h"
 #include "shared/parts_types.h"
 #include "shared/simulation_types.h"
@@ -22,12 +21,11 @@ CLOTH_CONSTANTS(LinePush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-TRIPLE_OUT(2, DisplacementOut, displacement_out);
+TRIPLE_OUT(2, displacement_out);
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_in;
-SCALAR_OUT(4, TensionOut, tension_out);
-#ifdef MASKED
+SCALAR_OUT(4, tension_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
-#endif
 layout(set = 0, binding = 6, r32ui) uniform uimage2D line_control;
 layout(constant_id = 2) const bool first_iteration = true;
 
@@ -54,15 +52,16 @@ float excess[part_particles];   // how much too long springs are, m
 vec3 delta[part_particles];     // what the first system changes displacements by, m
 vec3 delta_after;               // that of the particle after the last
 vec3 normal_before, normal_after;
-#ifdef MASKED
-float share[part_particles], rest[part_particles];
-float share_at(const int j) { return share[j]; }
-float rest_at(const int j) { return rest[j]; }
-#else
-uint existing;  // bit j: spring j exists
-float share_at(const int j) { return (existing & (1u << j)) != 0u ? line.share : 0.0f; }
-float rest_at(const int j) { return line.rest_length; }
-#endif
+float share[part_particles], rest[part_particles];  // where `masked`
+uint existing;                                      // else; bit j: spring j exists
+float share_at(const int j) {
+    if (masked) return share[j];
+    return (existing & (1u << j)) != 0u ? line.share : 0.0f;
+}
+float rest_at(const int j) {
+    if (masked) return rest[j];
+    return line.rest_length;
+}
 
 shared uint wrong[part_lines];  // whether one of a line's springs is wrong
 shared vec4 edges_kept[groups * part_lines];
@@ -163,14 +162,13 @@ void own_y(const int j) { edge[j].y = numbers[j]; }
 void own_z(const int j) { edge[j].z = numbers[j]; }
 void own_tension(const int j) { tension[j] = numbers[j]; }
 void own_weight(const int j) { weight[j] = numbers[j]; }
-#ifdef MASKED
 void give_share(const int j) { numbers[j] = loaded[j].share; }
 void give_rest(const int j) { numbers[j] = loaded[j].rest; }
 void own_share(const int j) { share[j] = numbers[j]; }
 void own_rest_length(const int j) { rest[j] = numbers[j]; }
 void same_rest(const int j) { rest[j] = line.rest_length; }
 
-void find_springs() {
+void find_masked_springs() {
     FOR_EACH_PARTICLE(give_share);
     to_owners();
     FOR_EACH_PARTICLE(own_share);
@@ -182,18 +180,20 @@ void find_springs() {
     to_owners();
     FOR_EACH_PARTICLE(own_rest_length);
 }
-#else
 ivec2 owned_at;
 void find_spring(const int j) {
     if (is_line && first_owned + j < line.last && owned_at.x != line.seam) existing |= 1u << j;
     owned_at = next_on_line(owned_at, line.step, line.columns);
 }
 void find_springs() {
+    if (masked) {
+        find_masked_springs();
+        return;
+    }
     existing = 0u;
     owned_at = line_end(line.index, line.step, min(first_owned, line.last) + 1, line.columns);
     FOR_EACH_PARTICLE(find_spring);
 }
-#endif
 
 void read_particles() {
     cursor = first_at;

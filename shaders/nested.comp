@@ -2,7 +2,6 @@
 // barrier after every direction. Its loops end at their bottom (include/every.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED SHEARED BUFFERED
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/simulation_types.h"
@@ -16,7 +15,7 @@ layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
 // A texel is of the spring that a particle owns in the direction at hand. xy: the spring, eliminated; z: its stored
 // tension before this direction is solved.
 layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D nested_rows_in;
-coherent TRIPLE_OUT(5, NestedRowsOut, nested_rows_out);
+COHERENT_TRIPLE_OUT(5, nested_rows_out);
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // normal of the spring that a line's end lacks
 

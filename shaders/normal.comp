@@ -1,8 +1,7 @@
 // This pass computes the normals of a cloth, for drawing: the area-weighted mean over the triangles around each
-// particle. MASKED takes the triangles that exist from the cell image (holes, cuts).
+// particle. Where `masked`, the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/wind.h"
@@ -13,9 +12,8 @@ PUSH_CONSTANTS(GridPush)
 #include "include/together.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D normal;
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D cells;
-#endif
 
 #include "include/neighbourhood.h"
 

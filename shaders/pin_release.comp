@@ -1,13 +1,8 @@
 // This pass frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass.
-// The substep that follows is the first without the pin's force (include/pin.h). TENSION takes the springs' last pull
-// from their stored tension. MASKED does too, and takes the spring shares from an image (holes, cuts). SECOND_ORDER
-// asks the control for backward Euler substeps.
+// The substep that follows is the first without the pin's force (include/pin.h). Where the method `carries_to_release`, the
+// springs' last pull comes from their stored tension. In `second_order` it asks the control for backward Euler substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants TENSION|MASKED SECOND_ORDER
-#ifdef MASKED
-#define TENSION
-#endif
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/explicit.h"
@@ -25,17 +20,15 @@ layout(set = 0, binding = 3, std430) readonly buffer PinMotions { PinMotion pin_
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_in;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_out;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder;
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
-#endif
-#ifdef TENSION
+layout(constant_id = 24) const bool carries_to_release = false;
 layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right;
 layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left;
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D spring_shares;
-#endif
 
 float tension_at(ivec2 owner, int direction) {
     if (direction == 0) return imageLoad(tension_row, owner).x;
@@ -46,11 +39,8 @@ float tension_at(ivec2 owner, int direction) {
 
 /// `cloth`: texel of the cloth's first particle.
 float share_of(ivec2 cloth, ivec2 owner, ivec2 offset, int direction) {
-#ifdef MASKED
-    return imageLoad(spring_shares, owner)[direction];
-#else
+    if (masked) return imageLoad(spring_shares, owner)[direction];
     return border_share(owner - cloth, offset, push.grid);
-#endif
 }
 
 /// Returns the displacement by which the springs' tension would move an inner particle at `texel` in a substep, m.
@@ -71,7 +61,6 @@ vec3 pull_of_springs(ivec2 cloth, ivec2 texel) {
     }
     return sum;
 }
-#endif
 
 void main() {
     int particle = int(gl_GlobalInvocationID.x);
@@ -88,12 +77,8 @@ void main() {
     imageStore(position_out, index.xy, vec4(position.xyz, rest.w));
     vec3 displacement = imageLoad(displacement_in, index.xy).xyz;
     vec3 pull = vec3(0.0f, 0.0f, 0.0f);
-#ifdef TENSION
-    pull = pull_of_springs(ivec2(0, index.w), index.xy);
-#endif
-#ifdef SECOND_ORDER
-    imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
-#endif
+    if (carries_to_release) pull = pull_of_springs(ivec2(0, index.w), index.xy);
+    if (second_order) imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
     float surplus = release_surplus(motion);
     precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;
     imageStore(displacement_out, index.xy, vec4(displacement, release_mark(surplus)));

@@ -1,9 +1,8 @@
 // This pass is the prediction of the line solver in second order: it finishes the last substep (X += d, after the first
 // substep of a frame), decides for each cloth whether the substep is BDF2 or backward Euler, moves the history on and
-// predicts the next displacement. WIND adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+// predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIND BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bdf2.h"
@@ -12,15 +11,15 @@
 CLOTH_CONSTANTS(PredictPush)
 #define TOGETHER
 #include "include/strips.h"
-#define IN_PLACE
+const bool in_place = true;
 #include "include/substep_state.h"
 
 layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
 layout(constant_id = 1) const bool turns = false;    // the displacement goes to another image than it is read from
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
-TRIPLE_OUT(10, DisplacementBeforeOut, displacement_before_out);
+TRIPLE_OUT(10, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
-TRIPLE_OUT(12, VelocityExcessOut, velocity_excess_out);
+TRIPLE_OUT(12, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control_in;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out;
 

@@ -1,9 +1,8 @@
 // This pass measures the stretch error within a substep. An invocation takes residual_rows particles of a column, each
-// with the stretch springs whose first particle it is, and a workgroup leaves a record. MASKED takes the spring shares
-// from an image (holes, cuts).
+// with the stretch springs whose first particle it is, and a workgroup leaves a record. Where `masked`, the spring
+// shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/residual.h"
@@ -16,9 +15,8 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 3, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 4, std430) writeonly buffer Residuals { ResidualRecord residuals[]; };
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #define LOAD(name, texel) imageLoad(name, texel)
 #include "include/rest_length.h"
 
@@ -29,11 +27,8 @@ ResidualRecord with_spring(ResidualRecord record, ivec2 first, ivec2 offset, flo
                            float tension) {
     ivec2 second = first + offset;
     if (first.x >= push.grid.x || second.x >= push.grid.x || second.y >= push.grid.y) return record;
-#ifdef MASKED
-    float share = imageLoad(spring_shares, first)[channel];
-#else
     float share = 1.0f;
-#endif
+    if (masked) share = imageLoad(spring_shares, first)[channel];
     vec3 edge = spring_edge(imageLoad(position, first).xyz, imageLoad(position, second).xyz,
                             imageLoad(displacement, first).xyz, imageLoad(displacement, second).xyz);
     return add_residual(record, edge, length_at_rest(rest_length, first, channel), share, push.compression, tension);

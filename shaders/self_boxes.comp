@@ -1,10 +1,10 @@
 // This pass makes the boxes over the sheet as it is at the start of a substep, one per particle about the cell whose
 // first corner that is. It resets the lists of what pairs bore by their first corner and keeps the motions that the
 // particles would make without contact. Where a cell has left the box with which it was last looked for, there is a
-// new search, for which the last workgroup to come to its end sets the sizes of passes. CROSSED also resets what is found of cloths that started through each other.
+// new search, for which the last workgroup to come to its end sets the sizes of passes. Where some
+// cloths `crossed` when they started, it also resets what is found of those.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/self_contact.h"
@@ -20,10 +20,9 @@ layout(set = 0, binding = 7, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Before { vec4 before[]; };
 layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer kept;  // boxes of the last search
 layout(set = 0, binding = 10, std430) buffer Sizes { uvec4 sizes[]; };
-#ifdef CROSSED
+layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 11, std430) writeonly buffer Crossings { SelfCrossings crossings[]; };
 void forget_crossings(int k) { crossings[k] = SelfCrossings(0, 0); }
-#endif
 
 #include "include/self_carried.h"
 vec3 first_travel;  // the first record's, read as early
@@ -95,9 +94,9 @@ void main() {
     first_travel = record[0].travel.xyz;
     int count = push.grid.x * push.grid.y;
     FOR_EVERY(place, count, begin(place, count))
-#ifdef CROSSED
-    FOR_EVERY(k, push.crossed_count, forget_crossings(k))
-#endif
+    if (crossed) {
+        FOR_EVERY(k, push.crossed_count, forget_crossings(k))
+    }
     if (searches && sizes[self_size_search].x == 0u) atomicMax(sizes[self_size_search].x, 1u);
     memoryBarrierBuffer();
     barrier();

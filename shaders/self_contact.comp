@@ -3,11 +3,8 @@
 // lack some of their thickness; the last one notes what every pair bears, for the next substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIDE
-#ifdef WIDE  // both parts of a component share an atomic of 64 bits, which halves the atomics
 #extension GL_EXT_shader_atomic_int64 : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#endif
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/push.h"

@@ -1,11 +1,10 @@
-// This pass lays a cloth's particles on the sheet, as they are at this point of a substep. MASKED takes the triangles
-// that exist from an image (holes, cuts). SUPPORTED also lays there the surfaces that they lie on. The pass of a member's last
+// This pass lays a cloth's particles on the sheet, as they are at this point of a substep. Where `masked`, an image
+// says which triangles exist (holes, cuts). Where `supported`, it also lays there the surfaces that they lie on. The pass of a member's last
 // cloth begins its contact in the substep too: the first workgroup finds the motion that all of its particles are
 // measured against, which a few samples have in common, or none where some are always held, and resets the records of
 // the passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED SUPPORTED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/self_contact.h"
@@ -18,17 +17,15 @@ CLOTH_CONSTANTS(SelfClothPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 // These two are of the sheet, where those of other cloths stay.
-VECTOR_KEPT(2, Positions, positions);
-VECTOR_KEPT(3, Displacements, displacements);
-#ifdef MASKED
+VECTOR_KEPT(2, positions);
+VECTOR_KEPT(3, displacements);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
-#endif
 
-#ifdef SUPPORTED
+layout(constant_id = 24) const bool supported = false;
 layout(set = 0, binding = 5, rgba32f) uniform image2D support;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D support_grip;
 layout(set = 0, binding = 7, std430) writeonly buffer Supports { vec4 supports[]; };
-#endif
 layout(set = 0, binding = 8, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 9, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer Sizes { uvec4 sizes[]; };
@@ -38,11 +35,8 @@ shared float parts[workgroup_width];
 
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
-#ifdef MASKED
-    return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
-#else
+    if (masked) return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
     return true;
-#endif
 }
 
 /// Returns bits of the primitives that a particle owns and that exist: two triangles, then three edges.
@@ -61,14 +55,13 @@ void lay(ivec2 texel) {
     STORE_IN_COLUMNS(positions, laid, push.sheet.x, LOAD(position, texel));
     vec3 moved = LOAD(displacement, texel).xyz;
     STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
-#ifdef SUPPORTED
+    if (!supported) return;
     // It is taken back, as this substep's last collision says where a particle lies then.
     vec4 plane = LOAD(support, texel);
     int at = 2 * (laid.y * push.sheet.x + laid.x);
     supports[at] = plane;
     supports[at + 1] = LOAD(support_grip, texel);
     if (plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f) imageStore(support, placed(texel), vec4(0.0f));
-#endif
 }
 
 void lay_all() { FOR_STRIP(texel, push.grid, lay(texel)) }
@@ -79,7 +72,9 @@ vec3 sample_of(int k) {
     ivec2 own = self_sample(cloth.grid, k % self_cloth_samples);
     // This pass may not have laid its own cloth yet.
     if (cloth.first == push.first) return LOAD(displacement, own).xyz;
-    return LOAD_IN_COLUMNS(displacements, cloth.first + own, push.sheet.x).xyz;
+    vec4 laid;
+    LOAD_IN_COLUMNS(laid, displacements, cloth.first + own, push.sheet.x)
+    return laid.xyz;
 }
 
 /// Returns the mean motion of all samples, which a workgroup loads at once and one invocation adds up in their order: on

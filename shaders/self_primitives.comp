@@ -1,10 +1,9 @@
 // This pass lists the pairs of primitives whose boxes are near each other, among the pairs of cells that are. Particles
 // and triangles fill the list from its begin, edges from its end. It also resets the sums of the impulses to come, and
-// chains what pairs bore by their first corners. CROSSED leaves out cloths that started through each other and still
-// cross.
+// chains what pairs bore by their first corners. It leaves out cloths that `crossed` when they started and
+// still do.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CROSSED
 #include "shared/simulation_types.h"
 #include "include/every.h"
 #include "include/push.h"
@@ -17,10 +16,9 @@ layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 5, std430) buffer Near { uint near[]; };
 layout(set = 0, binding = 6, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 7, std430) buffer Sizes { uvec4 sizes[]; };
-#ifdef CROSSED
+layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 8, std430) readonly buffer Meetings { uint meetings[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Crossings { SelfCrossings crossings[]; };
-#endif
 #include "include/self_lists.h"
 layout(set = 0, binding = 10, std430) writeonly buffer Sums { uvec4 sums[]; };  // two each
 layout(set = 0, binding = 11, std430) buffer FirstBorne { uint first_borne[]; };
@@ -128,12 +126,10 @@ void list_edges(int entry, uint bits) {
     }
 }
 
-#ifdef CROSSED
 bool still_cross(int one, int other) {
     uint meeting = meetings[owner_of(one) * push.cloth_count + owner_of(other)];
     return meeting >= self_meets_apart && crossings[max(meeting, self_meets_apart) - self_meets_apart].count > 0;
 }
-#endif
 
 void judge(int entry) {
     ivec2 pair = cells[entry];
@@ -141,9 +137,7 @@ void judge(int entry) {
     vec3 axis = normal_of(first);
     Cell one = cell_of(first, axis), other = cell_of(second, axis);
     uint bits = met(one, other, self_mean_thickness(cloth_at(one.at), cloth_at(other.at)));
-#ifdef CROSSED
-    bits = still_cross(pair.x, pair.y) ? 0u : bits;
-#endif
+    if (crossed) bits = still_cross(pair.x, pair.y) ? 0u : bits;
     list_points(entry, bits & ((1u << self_first_edge_pair) - 1u));
     list_edges(entry, bits >> self_first_edge_pair);
 }

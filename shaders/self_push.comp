@@ -1,13 +1,11 @@
 // This pass gives the particles the velocities that the impulses of contacts make, and moves them by these and by what
-// makes a missing thickness good. CROSSED adds the velocity that leads their cloth apart from others.
+// makes a missing thickness good. Where some cloths `crossed` when they started, it adds the velocity that
+// leads them apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants WIDE CROSSED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/every.h"
-#ifdef CROSSED
 #include "include/self_apart.h"
-#endif
 #include "include/self_contact.h"
 #include "include/self_impulse.h"
 #include "include/push.h"
@@ -17,27 +15,23 @@ PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacements_in;
 #include "include/state_store.h"
-VECTOR_OUT(4, DisplacementsOut, displacements_out);
+VECTOR_OUT(4, displacements_out);
 #include "include/self_cloths.h"
 layout(set = 0, binding = 5, std430) writeonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer MadeGood { vec4 made_good[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Before { vec4 before[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer supports;
-#ifdef CROSSED
+layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 10, std430) readonly buffer Led { vec4 led[]; };
-#endif
 #define SUMS_IN_SLOT 11
 #include "include/self_sums.h"
 
 bool touching;  // whether any pairs touch; else the sums are of an earlier substep
 
 bool pushed(int place) {
-#ifdef CROSSED
-    return true;  // its cloth may be led
-#else
+    if (crossed) return true;                  // its cloth may be led
     return sum_of(0, place).z_weight.z != 0u;  // some contact holds it
-#endif
 }
 
 void move(int place) {
@@ -51,12 +45,12 @@ void move(int place) {
     vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place), cloth.largest) : nothing;
     vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place), cloth.largest) : nothing;
     vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass));
-#ifdef CROSSED
-    vec3 by = led[max(owner_of(place), 0)].xyz;
-    bool is_held = touching && sum_of(0, place).z_weight.z != 0u;
-    if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
-    velocity = self_led(velocity, by);
-#endif
+    if (crossed) {
+        vec3 by = led[max(owner_of(place), 0)].xyz;
+        bool is_held = touching && sum_of(0, place).z_weight.z != 0u;
+        if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
+        velocity = self_led(velocity, by);
+    }
     vec3 good = self_led_by(self_moved_by(leading, mass), imageLoad(supports, 2 * place).xyz);
     velocities[place] = vec4(velocity, 0.0f);
     made_good[place] = vec4(good, 0.0f);

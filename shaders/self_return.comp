@@ -1,12 +1,11 @@
 // This pass ends a substep's contact for a cloth. It cuts short every motion that would go farther than was proved to
 // cross nothing. The velocity that a particle came with stays its displacement, and the particle is shifted so that it
-// ends where contact let it: what held it back, or led it apart, is no velocity. HISTORY has the cloth go on in backward
-// Euler substeps (include/bdf2.h). HISTORY and, in a frame's last substep of other methods, BEFORE change the
-// displacement of the substep before as contact has changed this one's, so that the two tell the same acceleration by
-// springs as without contact.
+// ends where contact let it: what held it back, or led it apart, is no velocity. In `second_order` the cloth goes on in
+// backward Euler substeps (include/bdf2.h). There, and in a frame's last substep of other methods, the displacement of
+// the substep before is changed as contact has changed this one's, so that the two tell the same acceleration by springs
+// as without contact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants HISTORY|BEFORE BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/push.h"
@@ -19,19 +18,18 @@ CLOTH_CONSTANTS(SelfClothPush)
 #include "include/state_store.h"
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
-TRIPLE_OUT(1, DisplacementOut, displacement_out);
+TRIPLE_OUT(1, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;   // on the sheet
 layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: what moved a particle
 layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  // of those
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
-TRIPLE_OUT(6, PositionOut, position_out);
-#if defined(HISTORY) || defined(BEFORE)
+TRIPLE_OUT(6, position_out);
+layout(constant_id = 22) const bool second_order = false;
+layout(constant_id = 24) const bool ends_frame = false;
+const bool changes_before = second_order || ends_frame;
 layout(set = 0, binding = 7, rgba32f) uniform readonly image2D displacement_before_in;
-TRIPLE_OUT(9, DisplacementBeforeOut, displacement_before_out);
-#endif
-#ifdef HISTORY
+TRIPLE_OUT(9, displacement_before_out);
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
-#endif
 layout(set = 0, binding = 10, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 11, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 12, rgba32f) uniform readonly imageBuffer made_good;
@@ -86,6 +84,13 @@ vec3 made_of(Motion motion) {
     return made;
 }
 
+/// Has the cloth go on in backward Euler substeps. The load spares an atomic, as most particles that come here find the
+/// hold set.
+void hold_order() {
+    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
+        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
+}
+
 void end_motion(ivec2 texel) {
     Motion motion = motion_of(texel);
     if (motion.held) {
@@ -96,16 +101,12 @@ void end_motion(ivec2 texel) {
     vec4 start = LOAD(position_in, texel);
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
     STORE_TRIPLE(displacement_out, texel, velocity, LOAD(displacement_in, texel).w);
-#if defined(HISTORY) || defined(BEFORE)
-    vec3 last = LOAD(displacement_before_in, texel).xyz;
-    if (motion.cut || motion.pushed)
-        STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
-#endif
-#ifdef HISTORY
-    // The load spares an atomic, as most particles that come here find the hold set.
-    if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
-        imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
-#endif
+    if (changes_before) {
+        vec3 last = LOAD(displacement_before_in, texel).xyz;
+        if (motion.cut || motion.pushed)
+            STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
+    }
+    if (second_order) hold_order();
 }
 
 void end_all() { FOR_STRIP_FOUND(texel, push.grid, is_changed(texel), end_motion(texel)) }

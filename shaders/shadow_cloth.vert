@@ -1,11 +1,8 @@
-// Draws a cloth as the first light sees it; with CUT, with the vertices on its cut springs.
+// Draws a cloth as the first light sees it, with the vertices on its cut springs where it is `cut`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CUT
 #include "shared/raster_types.h"
-#ifdef CUT
 #include "shared/cut_types.h"
-#endif
 #include "include/raster_frame.h"
 #include "include/shadow_clip.h"
 layout(push_constant) uniform Push { ClothPush push; };

@@ -1,9 +1,8 @@
 // This plain kernel relaxes the springs of one direction and parity with an invocation per spring. Such springs share
-// no particle. MASKED takes the spring shares from an image (holes, cuts). TENSION stores the springs' tension, for the
+// no particle. Where `masked`, the spring shares come from an image (holes, cuts). It may store the springs' tension, for the
 // next iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION BUFFERED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/spring.h"
@@ -15,14 +14,12 @@ CLOTH_CONSTANTS(SpringPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
-#ifdef TENSION
+layout(constant_id = 24) const bool stores_tension = false;
 layout(set = 0, binding = 4, r32f) uniform readonly image2D tension_in;
-SCALAR_OUT(5, TensionOut, tension_out);
-#endif
+SCALAR_OUT(5, tension_out);
 
 #include "include/rest_length.h"
 
@@ -37,15 +34,11 @@ void main() {
     vec4 displacement_second = LOAD(displacement_in, second);
     float weight_first = dragged_weight(position_first.w, displacement_first.w);
     float weight_second = dragged_weight(position_second.w, displacement_second.w);
-#ifdef MASKED
-    float share = LOAD(spring_shares, first)[push.channel];
-#else
     float share = border_share(first, push.offset, push.grid);
-#endif
+    if (masked) share = LOAD(spring_shares, first)[push.channel];
     float tension = 0.0f;
-#ifdef TENSION
-    if (given.first_iteration == 0) tension = LOAD(tension_in, first).x;
-#endif
+    if (stores_tension)
+        if (given.first_iteration == 0) tension = LOAD(tension_in, first).x;
     vec3 edge = spring_edge(position_first.xyz, position_second.xyz, displacement_first.xyz, displacement_second.xyz);
     precise float weight_sum = weight_first + weight_second;
     SpringResult result = project_spring(edge, weight_sum, length_at_rest(push.rest_length, first, push.channel), share,
@@ -54,7 +47,5 @@ void main() {
     vec3 moved_second = moved_by(displacement_second.xyz, result.correction, weight_second);
     STORE_VECTOR(displacement_out, first, vec4(moved_first, displacement_first.w));
     STORE_VECTOR(displacement_out, second, vec4(moved_second, displacement_second.w));
-#ifdef TENSION
-    STORE_SCALAR(tension_out, first, result.tension);
-#endif
+    if (stores_tension) STORE_SCALAR(tension_out, first, result.tension);
 }

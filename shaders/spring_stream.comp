@@ -12,16 +12,12 @@
 //                o------o
 //
 // Then the first two rows are done. A ghost beside an invocation's columns is the first column of the invocation on the
-// right; its displacement goes back there by shuffle. MASKED takes the spring shares from an image. TENSION stores the
-// tension of the stretch springs, for the stretch error, and starts it from zero. CARRIED stores that of all springs,
-// for the next iteration or the release of a pin, and starts from the tension that the iteration before left in other
-// images.
+// right; its displacement goes back there by shuffle. Where `masked`, the spring shares come from an image. The tension is
+// stored for the stretch error, the next iteration or the release of a pin (include/iteration_tension.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED TENSION|CARRIED
-#define BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
 #include "include/push.h"
@@ -34,10 +30,9 @@ CLOTH_CONSTANTS(AllSpringsPush)
 layout(local_size_x = stream_lanes) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 
 #include "include/iteration_tension.h"
 #include "include/rest_length.h"
@@ -57,11 +52,8 @@ ivec2 nearest_inside(ivec2 owner) {
 }
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
-#ifdef MASKED
-    return LOAD(spring_shares, nearest_inside(owner))[channel];
-#else
+    if (masked) return LOAD(spring_shares, nearest_inside(owner))[channel];
     return border_share(owner, offset, push.grid);
-#endif
 }
 
 bool exists(ivec2 owner, ivec2 offset) {
@@ -85,32 +77,33 @@ float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offs
     return result.tension;
 }
 
-#define STORE_OWN(store, c, owner, offset, value) \
-    if (is_own(c) && is_of(band, (owner).y) && exists(owner, offset)) store(owner, value)
+void store_own(int channel, int c, ivec2 owner, ivec2 offset, float tension) {
+    if (is_own(c) && is_of(band, owner.y) && exists(owner, offset)) store_tension_at(owner, channel, tension);
+}
 
 void relax_along(inout Particle row[columns + 1], int y) {
     const ivec2 offset = ivec2(1, 0);
     float tension[columns];
     for (int c = 0; c < columns; c += 2) {
         ivec2 owner = ivec2(first_column() + c, y);
-        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, tension_at(owner, 0));
     }
     fetch_ghost(row);
     for (int c = 1; c < columns; c += 2) {
         ivec2 owner = ivec2(first_column() + c, y);
-        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, TENSION_ROW(owner));
+        tension[c] = relax(row[c], row[c + 1], owner, offset, 0, tension_at(owner, 0));
     }
     return_ghost(row);
     for (int c = 0; c < columns; ++c)
-        STORE_OWN(STORE_TENSION_ROW, c, ivec2(first_column() + c, y), offset, tension[c]);
+        store_own(0, c, ivec2(first_column() + c, y), offset, tension[c]);
 }
 
 void relax_columns(inout Particle upper[columns + 1], inout Particle lower[columns + 1], int y) {
     const ivec2 offset = ivec2(0, 1);
     for (int c = 0; c < columns; ++c) {
         ivec2 owner = ivec2(first_column() + c, y);
-        float tension = relax(upper[c], lower[c], owner, offset, 1, TENSION_COLUMN(owner));
-        STORE_OWN(STORE_TENSION_COLUMN, c, owner, offset, tension);
+        float tension = relax(upper[c], lower[c], owner, offset, 1, tension_at(owner, 1));
+        store_own(1, c, owner, offset, tension);
     }
 }
 
@@ -119,8 +112,8 @@ void relax_down_right(inout Particle upper[columns + 1], inout Particle lower[co
     fetch_ghost(lower);
     for (int c = 0; c < columns; ++c) {
         ivec2 owner = ivec2(first_column() + c, y);
-        float tension = relax(upper[c], lower[c + 1], owner, offset, 2, TENSION_DOWN_RIGHT(owner));
-        STORE_OWN(STORE_TENSION_DOWN_RIGHT, c, owner, offset, tension);
+        float tension = relax(upper[c], lower[c + 1], owner, offset, 2, tension_at(owner, 2));
+        store_own(2, c, owner, offset, tension);
     }
     return_ghost(lower);
 }
@@ -130,8 +123,8 @@ void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[col
     fetch_ghost(upper);
     for (int c = 0; c < columns; ++c) {
         ivec2 owner = ivec2(first_column() + c + 1, y);
-        float tension = relax(upper[c + 1], lower[c], owner, offset, 3, TENSION_DOWN_LEFT(owner));
-        STORE_OWN(STORE_TENSION_DOWN_LEFT, c + 1, owner, offset, tension);
+        float tension = relax(upper[c + 1], lower[c], owner, offset, 3, tension_at(owner, 3));
+        store_own(3, c + 1, owner, offset, tension);
     }
     return_ghost(upper);
 }

@@ -1,10 +1,10 @@
 // This kernel is a step of all springs, to the bits of the eight passes of spring.comp, for devices that run many
 // invocations: a workgroup holds a tile of particles in shared memory and takes the passes in turn. The outermost
 // particles lack neighbours, so their error spreads inwards by one particle a pass; therefore tiles overlap by 2 *
-// `halo`, and one that holds the whole cloth needs none. MASKED, TENSION and CARRIED are those of spring_stream.comp.
+// `halo`, and one that holds the whole cloth needs none. The constants are those of
+// spring_stream.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED TENSION|CARRIED
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
 #include "include/push.h"
@@ -18,10 +18,9 @@ const int tile_width = sweep_tile_width;
 layout(local_size_x = tile_width, local_size_y = tile_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/iteration_tension.h"
 #include "include/rest_length.h"
 
@@ -34,25 +33,8 @@ shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
 
 float share_of(ivec2 owner, ivec2 offset, int channel) {
-#ifdef MASKED
-    return LOAD(spring_shares, owner)[channel];
-#else
+    if (masked) return LOAD(spring_shares, owner)[channel];
     return border_share(owner, offset, push.grid);
-#endif
-}
-
-float tension_of(ivec2 owner, int channel) {
-    if (channel == 0) return TENSION_ROW(owner);
-    if (channel == 1) return TENSION_COLUMN(owner);
-    return channel == 2 ? TENSION_DOWN_RIGHT(owner) : TENSION_DOWN_LEFT(owner);
-}
-
-void store_tension(int channel, float tension) {
-    if (!is_own()) return;
-    if (channel == 0) STORE_TENSION_ROW(own_texel(), tension);
-    if (channel == 1) STORE_TENSION_COLUMN(own_texel(), tension);
-    if (channel == 2) STORE_TENSION_DOWN_RIGHT(own_texel(), tension);
-    if (channel == 3) STORE_TENSION_DOWN_LEFT(own_texel(), tension);
 }
 
 /// Takes one pass: it relaxes the springs of one direction and parity, each by the invocation of its first particle.
@@ -70,10 +52,10 @@ void relax(ivec2 offset, int channel, int parity) {
     SpringResult result =
         project_spring(edge, weight_sum, length_at_rest(push.rest_length[channel], first, channel),
                        share_of(first, offset, channel), push.compression, push.compliance[channel],
-                       tension_of(first, channel));
+                       tension_at(first, channel));
     moved[a] = moved_by(moved[a], result.correction, -held_a.w);
     moved[b] = moved_by(moved[b], result.correction, held_b.w);
-    store_tension(channel, result.tension);
+    if (is_own()) store_tension_at(own_texel(), channel, result.tension);
 }
 
 void relax_direction(ivec2 offset, int channel) {

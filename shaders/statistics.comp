@@ -1,26 +1,16 @@
 // This pass takes the statistics of a cloth, with an invocation and a record per statistics_rows particles of a column.
-// A particle answers for the springs whose first particle it is. MASKED takes spring shares and masses from images
-// (holes, cuts), RESTS_BENT too, of a cloth that bends and rests in the shape that it starts in. COLLIDING measures
-// contact with the scene's colliders, MESHES too, with triangle meshes among them.
+// A particle answers for the springs whose first particle it is. Where `masked`, spring shares and masses come
+// from images (holes, cuts). A cloth that `rests_bent` bends and rests in the shape that it starts in.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-#pragma variants MASKED|RESTS_BENT COLLIDING|MESHES
 #include "shared/simulation_types.h"
 #include "include/bend.h"
 #include "include/push.h"
 #include "include/rest_bend.h"
 #include "include/spring.h"
 #include "include/statistics.h"
-#ifdef RESTS_BENT
-#define MASKED
-#endif
-#ifdef MESHES
-#define COLLIDING
-#endif
-#ifdef COLLIDING
 #include "include/contacts.h"
-#endif
 
 layout(local_size_x = workgroup_width) in;
 CLOTH_CONSTANTS(StatisticsPush)
@@ -29,18 +19,17 @@ CLOTH_CONSTANTS(StatisticsPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, std430) writeonly buffer Partials { StatisticsRecord partials[]; };
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 4, r32f) uniform readonly image2D mass_share;
-#endif
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_row;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Each cloth has a texel. xyz: positions are summed relative to this point, m; w: thickness, m.
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
-#ifdef RESTS_BENT
+layout(constant_id = 24) const bool rests_bent = false;
 layout(set = 0, binding = 13, rgba32f) uniform readonly image2D rest_shape;
-#endif
+const bool collides = meshes_end > 0;
 layout(constant_id = 28) const bool has_bend = false;
 #include "include/rest_length.h"
 
@@ -48,11 +37,8 @@ vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, clot
 
 /// The inverse mass w would not do, since held particles have a mass too.
 float mass_share_of(ivec2 texel) {
-#ifdef MASKED
-    return LOAD(mass_share, texel).x;
-#else
+    if (masked) return LOAD(mass_share, texel).x;
     return border_mass_share(texel, push.grid);
-#endif
 }
 
 /// The positions around a particle, and of the particle itself.
@@ -63,12 +49,12 @@ struct Neighbours {
 
 /// Returns the shares of the springs that a particle owns, by direction; 0 for those that leave the grid.
 vec4 shares_of(ivec2 texel) {
-#ifdef MASKED
-    vec4 shares = LOAD(spring_shares, texel);
-#else
-    vec4 shares = vec4(border_share(texel, ivec2(1, 0), push.grid), border_share(texel, ivec2(0, 1), push.grid), 1.0f,
-                       1.0f);
-#endif
+    vec4 shares;
+    if (masked)
+        shares = LOAD(spring_shares, texel);
+    else
+        shares = vec4(border_share(texel, ivec2(1, 0), push.grid), border_share(texel, ivec2(0, 1), push.grid), 1.0f,
+                      1.0f);
     bool right = texel.x + 1 < push.grid.x, below = texel.y + 1 < push.grid.y;
     return vec4(right ? shares.x : 0.0f, below ? shares.y : 0.0f, right && below ? shares.z : 0.0f,
                 texel.x > 0 && below ? shares.w : 0.0f);
@@ -89,9 +75,7 @@ struct Edge {
 
 Edge edge_between(ivec2 from, ivec2 to) {
     precise vec3 rest = vec3(0.0f);
-#ifdef RESTS_BENT
-    rest = LOAD(rest_shape, to).xyz - LOAD(rest_shape, from).xyz;
-#endif
+    if (rests_bent) rest = LOAD(rest_shape, to).xyz - LOAD(rest_shape, from).xyz;
     precise vec3 now = LOAD(position, to).xyz - LOAD(position, from).xyz;
     return Edge(rest, now);
 }
@@ -111,10 +95,10 @@ Edge if_there(Edge edge, float share) {
 /// How far an element is beyond its rest, m; `row` and `column`: the tangents of its place (include/rest_bend.h).
 vec3 beyond_rest_in(Edge difference, Edge row, Edge column) {
     vec3 target = vec3(0.0f);
-#ifdef RESTS_BENT
-    vec4 coordinates = rest_coordinates(difference.rest, Tangents(row.rest, column.rest));
-    target = rest_difference(coordinates, Tangents(row.now, column.now), difference.now);
-#endif
+    if (rests_bent) {
+        vec4 coordinates = rest_coordinates(difference.rest, Tangents(row.rest, column.rest));
+        target = rest_difference(coordinates, Tangents(row.now, column.now), difference.now);
+    }
     return beyond_rest(difference.now, target);
 }
 
@@ -150,7 +134,7 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     record = with_spring(record, texel, at, around.below_right, 2, shares.z, 0.0f);
     record = with_spring(record, texel, at, around.below_left, 3, shares.w, 0.0f);
     if (has_bend) record = with_bending(record, texel);
-#ifdef COLLIDING
+    if (!collides) return record;
     // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
     // count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
@@ -159,14 +143,11 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     if (record.counts.x == 0u && around.here.w != 0.0f)
         record.extents.z =
             contact_with_all(push.collider_first, at, rest, own.x, 0.0f, 1.0e30f, false, false, far).depth;
-#endif
     return record;
 }
 
 void main() {
-#ifdef COLLIDING
-    read_colliders(push.collider_first);
-#endif
+    if (collides) read_colliders(push.collider_first);
     ivec2 texel = ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y * uint(statistics_rows));
     StatisticsRecord record = empty_statistics();
     Neighbours around;

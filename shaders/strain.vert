@@ -1,23 +1,19 @@
 // Makes a cloth's particles vertices of a heat map of strain, (length - rest length) / rest length as in the
 // statistics. The spring of a particle that is strained most counts, so that a picture's extremes are the statistics'
-// own. CUT adds the vertices on its cut springs, each with its own side's particle. MASKED: spring shares come from an
-// image (holes, cuts); without a share there is no spring.
+// own. Where the cloth is `cut`, there are vertices on its cut springs, each with its own side's particle. Where it
+// is `masked`, spring shares come from an image (holes, cuts); without a share there is no spring.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants CUT MASKED
 #include "shared/raster_types.h"
-#ifdef CUT
 #include "shared/cut_types.h"
-#endif
 #include "include/raster_frame.h"
 
 layout(constant_id = 0) const int shown = strain_of_both;
 layout(push_constant) uniform Push { StrainPush push; };
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D normal;
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D spring_shares;
-#endif
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 surface_normal;
 layout(location = 2) out float place;  // place on the heat map
@@ -29,11 +25,11 @@ float with_spring(float strain, ivec2 first, int direction) {
     if (any(lessThan(first, ivec2(0))) || any(greaterThanEqual(second, ivec2(push.grid.xy)))) return strain;
     float rest_length = push.springs[direction];
     if (!(rest_length > 0.0)) return strain;
-#ifdef MASKED
-    if (!(imageLoad(spring_shares, first)[direction] > 0.0)) return strain;
-    bool own_rest = imageSize(spring_shares).x > int(push.grid.x);  // as in include/rest_length.h
-    if (own_rest) rest_length *= imageLoad(spring_shares, first + ivec2(push.grid.x, 0))[direction];
-#endif
+    if (masked) {
+        if (!(imageLoad(spring_shares, first)[direction] > 0.0)) return strain;
+        bool own_rest = imageSize(spring_shares).x > int(push.grid.x);  // as in include/rest_length.h
+        if (own_rest) rest_length *= imageLoad(spring_shares, first + ivec2(push.grid.x, 0))[direction];
+    }
     float current = distance(imageLoad(position, first).xyz, imageLoad(position, second).xyz);
     float found = (current - rest_length) / rest_length;
     bool more = shown == strain_of_both ? found > strain : abs(found) > abs(strain);
@@ -51,9 +47,8 @@ void main() {
     uint index = uint(gl_VertexIndex);
     uint particle = index;
     world = vertex_position(index);
-#ifdef CUT
-    if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
-#endif
+    if (cut)
+        if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
     ivec2 texel = particle_texel(particle);
     surface_normal = imageLoad(normal, texel).xyz;
     place = push.place.x * strain_at(texel) + push.place.y;

@@ -1,8 +1,7 @@
 // This pass finds how hard the springs along rows and columns are pulled at the end of a frame, over what they bear, and
-// counts those that bear too much. MASKED leaves out springs that are gone.
+// counts those that bear too much. Where `masked`, springs that are gone are left out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "shared/cut_types.h"
 #include "include/tear.h"
@@ -14,20 +13,16 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D tear_limits;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D tear_loads;  // x: of the row's spring, y: the column's
 layout(set = 0, binding = 3, std430) buffer Count { uint count[]; };         // springs that bear too much
-#ifdef MASKED
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #define LOAD(name, texel) imageLoad(name, texel)
 #include "include/rest_length.h"
 
 vec3 particle(ivec2 at) { return imageLoad(position, at).xyz; }
 
 vec4 shares_of(ivec2 at) {
-#ifdef MASKED
-    return imageLoad(spring_shares, at);
-#else
+    if (masked) return imageLoad(spring_shares, at);
     return vec4(1.0f);
-#endif
 }
 
 /// 0 outside the grid.

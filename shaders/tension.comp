@@ -1,9 +1,8 @@
 // This pass finds the tension of the stretch springs that explicit steps gather, as the extension that it would cause,
-// with which the statistics compare the strain. Every texel that owns a spring is written. MASKED takes
-// the springs' lengths at rest from an image.
+// with which the statistics compare the strain. Every texel that owns a spring is written. A cloth that has its
+// `own_rest` has the springs' lengths at rest in an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED
 #include "shared/simulation_types.h"
 #include "include/explicit.h"
 #include "include/push.h"
@@ -16,9 +15,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D tension_row;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D tension_column;
-#ifdef MASKED
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/rest_length.h"
 
 float tension_to(ivec2 first, ivec2 second, int channel) {

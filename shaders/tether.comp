@@ -2,7 +2,6 @@
 // (w = 0), which it does not move; one that was released holds nobody.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants BUFFERED
 #include "shared/simulation_types.h"
 #include "shared/tether_types.h"
 #include "include/places.h"
@@ -17,7 +16,7 @@ PUSH_CONSTANTS(GridPush)
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
+VECTOR_OUT(2, displacement_out);
 layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer tethers;  // bits of ParticleTethers
 
 /// Returns the edge from a tether's anchor to its particle, or 0, which never pulls, where there is no tether or its

@@ -1,9 +1,8 @@
 // This plain kernel relaxes the twist of one colour of the cells with an invocation per cell. Cells of one colour share
-// no particle. MASKED sees by the spring shares whether a cell is whole (holes, cuts). SECOND_ORDER asks the control
-// whether this substep is BDF2.
+// no particle. Where `masked`, the spring shares say whether a cell is whole (holes, cuts). In
+// `second_order` the control says whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED SECOND_ORDER BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "include/bend.h"
@@ -17,14 +16,12 @@ CLOTH_CONSTANTS(TwistPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/bend_target.h"
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
-#endif
 
 void main() {
     ivec2 element = ivec2(gl_GlobalInvocationID.xy);
@@ -34,10 +31,9 @@ void main() {
     ivec2 lower_left = upper_left + ivec2(0, 1);
     ivec2 lower_right = upper_left + ivec2(1, 1);
     float share = 1.0f;
-#ifdef MASKED
-    share = twist_share(LOAD(spring_shares, upper_left), LOAD(spring_shares, upper_right),
-                        LOAD(spring_shares, lower_left));
-#endif
+    if (masked)
+        share = twist_share(LOAD(spring_shares, upper_left), LOAD(spring_shares, upper_right),
+                            LOAD(spring_shares, lower_left));
     vec4 position_00 = LOAD(position, upper_left);
     vec4 position_10 = LOAD(position, upper_right);
     vec4 position_01 = LOAD(position, lower_left);
@@ -55,9 +51,8 @@ void main() {
     difference = beyond_rest(difference, bend_target(upper_left, 2));
     float weight = twist_weight(weight_00, weight_10, weight_01, weight_11);
     float compliance = push.compliance;
-#ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
-#endif
+    if (second_order)
+        if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
     vec3 correction = project_bend(difference, weight, share, compliance);
     STORE_VECTOR(displacement_out, upper_left, vec4(moved_by(moved_00.xyz, correction, weight_00), moved_00.w));
     STORE_VECTOR(displacement_out, upper_right, vec4(moved_by(moved_10.xyz, correction, -weight_10), moved_10.w));

@@ -1,13 +1,11 @@
 // This stream is a step of all twist, to the bits of the four passes of twist.comp. Each subgroup goes down the rows of
 // a strip of columns, two rows at a time. With rows 2k and 2k + 1 loaded, it relaxes the cells between those two, even
-// columns first, then those between the rows 2k - 1 and 2k, which are done then. MASKED and SECOND_ORDER are those of
+// columns first, then those between the rows 2k - 1 and 2k, which are done then. `masked` and `second_order` are those of
 // twist.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-#pragma variants MASKED SECOND_ORDER
-#define BUFFERED
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "shared/stream_types.h"
@@ -22,14 +20,12 @@ CLOTH_CONSTANTS(AllTwistPush)
 layout(local_size_x = stream_lanes) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/bend_target.h"
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
-#endif
 
 const int columns = twist_columns, strip_width = twist_width, strip_halo = twist_halo,
           lead = 2;  // rows above a band that what moves in it depends on
@@ -39,12 +35,9 @@ const int columns = twist_columns, strip_width = twist_width, strip_halo = twist
 float compliance;
 
 float share_of(ivec2 cell) {
-#ifdef MASKED
-    return twist_share(LOAD(spring_shares, cell), LOAD(spring_shares, cell + ivec2(1, 0)),
-                       LOAD(spring_shares, cell + ivec2(0, 1)));
-#else
+    if (masked) return twist_share(LOAD(spring_shares, cell), LOAD(spring_shares, cell + ivec2(1, 0)),
+                           LOAD(spring_shares, cell + ivec2(0, 1)));
     return 1.0f;
-#endif
 }
 
 /// Relaxes the cell between four particles, the first of which is `corner`. Where the grid has no cell, nothing moves.
@@ -83,9 +76,8 @@ void relax_between(inout Particle upper[columns + 1], inout Particle lower[colum
 
 void main() {
     compliance = push.compliance;
-#ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
-#endif
+    if (second_order)
+        if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
     Particle above[columns + 1], upper[columns + 1], lower[columns + 1];
     for (int c = 0; c <= columns; ++c) above[c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
     RowBand band = row_band();

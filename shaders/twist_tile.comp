@@ -1,10 +1,9 @@
 // This kernel is a step of all twist, to the bits of the four passes of twist.comp, for devices that run many
 // invocations: a workgroup holds a tile of particles in shared memory (include/tile.h) and takes the colours in turn,
 // each cell by the invocation of its upper left particle. What is missing beyond a tile's border reaches inwards by one
-// particle a colour. MASKED and SECOND_ORDER are those of twist.comp.
+// particle a colour. `masked` and `second_order` are those of twist.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED SECOND_ORDER
 #include "shared/line_types.h"
 #include "shared/simulation_types.h"
 #include "shared/tile_types.h"
@@ -20,14 +19,12 @@ const int tile_width = sweep_tile_width;
 layout(local_size_x = tile_width, local_size_y = tile_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(2, DisplacementOut, displacement_out);
-#ifdef MASKED
+VECTOR_OUT(2, displacement_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
-#endif
 #include "include/bend_target.h"
-#ifdef SECOND_ORDER
+layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
-#endif
 
 layout(constant_id = 0) const int halo = 0;
 #include "include/tile.h"
@@ -37,12 +34,9 @@ shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
 
 float share_of(ivec2 cell) {
-#ifdef MASKED
-    return twist_share(LOAD(spring_shares, cell), LOAD(spring_shares, cell + ivec2(1, 0)),
-                       LOAD(spring_shares, cell + ivec2(0, 1)));
-#else
+    if (masked) return twist_share(LOAD(spring_shares, cell), LOAD(spring_shares, cell + ivec2(1, 0)),
+                           LOAD(spring_shares, cell + ivec2(0, 1)));
     return 1.0f;
-#endif
 }
 
 vec3 edge_between(int a, int b) { return spring_edge(held[a].xyz, held[b].xyz, moved[a], moved[b]); }
@@ -67,9 +61,8 @@ void relax(ivec2 colour, float compliance) {
 
 void main() {
     float compliance = push.compliance;
-#ifdef SECOND_ORDER
-    if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
-#endif
+    if (second_order)
+        if (imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u) compliance = push.compliance_bdf2;
     ivec2 texel = loaded_texel();
     vec4 start = LOAD(position, texel), displacement = LOAD(displacement_in, texel);
     held[gl_LocalInvocationIndex] = vec4(start.xyz, dragged_weight(start.w, displacement.w));

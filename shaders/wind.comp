@@ -1,11 +1,10 @@
 // This pass finds the force of the wind: each particle gathers a third of the force, and of the drag, on each of its up
 // to six triangles. An invocation goes down some adjacent columns of particles and hands the triangles between two rows
 // on to the lower one, so that most are computed once and not for each of their corners. Every sum keeps the order of
-// triangle_around. MASKED takes the triangles that exist from the cell image (holes, cuts). Where gravity changes, what
+// triangle_around. Where `masked`, the cell image says which triangles exist (holes, cuts). Where gravity changes, what
 // it is more than at the start is a force here, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants MASKED BUFFERED
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/triangles.h"
@@ -22,11 +21,10 @@ CLOTH_CONSTANTS(WindPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-VECTOR_OUT(2, WindForceOut, wind_force);
+VECTOR_OUT(2, wind_force);
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
-#ifdef MASKED
+layout(constant_id = 24) const bool masked = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
-#endif
 
 struct Member {
     vec3 position, displacement;
@@ -60,11 +58,8 @@ Row load_row(int y) {
 /// Returns bits of the triangles of a cell that exist (triangle_around).
 uint triangles_of(ivec2 cell) {
     if (!cell_inside(cell, push.grid)) return 0u;
-#ifdef MASKED
-    return imageLoad(cells, placed_cell(cell)).x;
-#else
+    if (masked) return imageLoad(cells, placed_cell(cell)).x;
     return 3u;
-#endif
 }
 
 /// A triangle that does not exist adds nothing to a sum, not even a zero's sign.

@@ -1,7 +1,6 @@
-// Draws a cloth's triangles pale and lit, with dark edges; with SHADOWED, under the first light's shadow map.
+// Draws a cloth's triangles pale and lit, with dark edges, where `shadowed` under the first light's shadow map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variants SHADOWED
 #include "shared/raster_types.h"
 #include "include/raster_frame.h"
 #include "include/shading.h"

@@ -1,4 +1,4 @@
-// Every committed module, taken as it is from its file.
+// Every module, taken as it is from its file.
 #include "spirv_modules.h"
 
 // clang-format off

@@ -1,4 +1,4 @@
-// Every committed module by name.
+// Every module by name.
 #pragma once
 
 #include <cstdint>

@@ -72,7 +72,7 @@ std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.comes_apart() ? draw_list_capacity(count) : count;
 }
 
-/// Shaders see these fields as images and, where their BUFFERED variants write, as buffers.
+/// Shaders see these fields as images and, where they are `buffered`, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
 /// Returns the rows up to the cells.

@@ -97,7 +97,7 @@ float sign(float number) { return number > 0 ? 1.0f : 0.0f; }
 glsl::vec4 sign(glsl::vec4 numbers) { return {sign(numbers.x), sign(numbers.y), sign(numbers.z), sign(numbers.w)}; }
 
 /// Leaves of a step's constants what says which step it is, and by which pipeline it is taken: no numbers of the cloth
-/// but whether they are zero, where a variant or a specialization constant of the shader is about that.
+/// but whether they are zero, where a specialization constant of the shader is about that.
 struct StructureOf {
     StepConstants operator()(const glsl::ForcePush& push) const { return glsl::ForcePush{push.grid}; }
     StepConstants operator()(const glsl::PredictPush& push) const { return glsl::PredictPush{push.grid}; }

@@ -34,15 +34,12 @@ class ResourcePool {
     const vulkan::Image& image(const std::string& name) const;
     /// `slot` matters for host_input and host_output buffers only.
     const vulkan::Buffer& buffer(const std::string& name, std::uint32_t slot = 0) const;
-    /// Returns a buffer for descriptors that are not used (vulkan::Pipeline::idle_bindings).
-    const vulkan::Buffer& idle_buffer() const { return *idle_buffer_; }
 
   private:
     const vulkan::Device& device_;
     std::map<std::string, vulkan::Image> images_;
     std::map<std::string, const vulkan::Image*> slices_;
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
-    std::optional<vulkan::Buffer> idle_buffer_;
 };
 
 /// Returns the bytes of what these plans use together.

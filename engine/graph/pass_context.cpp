@@ -159,15 +159,6 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
             writes[d].pBufferInfo = &buffers[d];
         }
     }
-    const VkDescriptorBufferInfo idle{pool_.idle_buffer().handle(), 0, VK_WHOLE_SIZE};
-    for (const std::uint32_t binding : pipeline.idle_bindings()) {
-        auto& write =
-            writes.emplace_back(vulkan::structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET));
-        write.dstBinding = binding;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        write.pBufferInfo = &idle;
-    }
     vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
     if (writes.empty()) return;
     vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,

@@ -178,7 +178,6 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
             copies.emplace_back(device, describe_buffer(wanted, copy));
         }
     }
-    idle_buffer_.emplace(device, vulkan::BufferDescription{"idle", 16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     device.run_once([&](VkCommandBuffer commands) {
         // Slices come first, since their memory is cleared with the whole.
         for (const auto& [name, slice] : slices_) record_to_general(commands, *slice);

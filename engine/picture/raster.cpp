@@ -155,21 +155,22 @@ void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const Raster
                                       vulkan::GraphicsState state, vulkan::GraphicsState shadow_state) {
     const ClothShaders shaders = cloth_shaders(view_);
     const bool strain = scale_.has_value(), shadow = casts_shadow();
-    state.fragment = {shaders.lit ? vulkan::variant_name(shaders.fragment, {{"shadowed", shadow}}) : shaders.fragment};
+    state.vertex = {shaders.vertex}, state.fragment = {shaders.fragment};
+    shadow_state.vertex = {"shadow_cloth.vert"};
     if (!shaders.lit) state.constants.clear();
     if (strain) state.constants = {{"shown", strain_number(view_)}};
-    const auto make = [&](const char* name, vulkan::GraphicsState& of, const std::string& vertex) {
-        of.vertex = {vertex};
+    const auto make = [&](const char* name, vulkan::GraphicsState of,
+                          std::initializer_list<vulkan::SpecializationConstant> more = {}) {
+        of.constants.insert(of.constants.end(), more);
         return std::make_unique<vulkan::GraphicsPipeline>(device, name, of);
     };
-    cloth_.whole = make("raster cloth", state, shaders.vertex);
-    if (shadow) shadow_cloth_.whole = make("shadow cloth", shadow_state, "shadow_cloth.vert");
-    if (strain && options.masked)
-        cloth_.masked = make("raster masked cloth", state, vulkan::variant_name(shaders.vertex, {{"masked", true}}));
+    cloth_.whole = make("raster cloth", state);
+    if (shadow) shadow_cloth_.whole = make("shadow cloth", shadow_state);
+    if (strain && options.masked) cloth_.masked = make("raster masked cloth", state, {{"masked", 1}});
     if (!options.cut) return;
-    cloth_.cut =
-        make("raster cut cloth", state, vulkan::variant_name(shaders.vertex, {{"cut", true}, {"masked", strain}}));
-    if (shadow) shadow_cloth_.cut = make("shadow cut cloth", shadow_state, "shadow_cloth_cut.vert");
+    if (strain) state.constants.push_back({"masked", 1});
+    cloth_.cut = make("raster cut cloth", state, {{"cut", 1}});
+    if (shadow) shadow_cloth_.cut = make("shadow cut cloth", shadow_state, {{"cut", 1}});
 }
 
 void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescription& scene,
@@ -177,7 +178,8 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     const bool shadow = casts_shadow();
     const bool by_triangle = options.constants_by_triangle.value_or(device_kind(device.info()) == DeviceKind::cpu);
     const std::vector<vulkan::SpecializationConstant> lit{{"light_count", light_count(scene)},
-                                                          {"constants_by_triangle", by_triangle ? 1u : 0u}};
+                                                          {"constants_by_triangle", by_triangle ? 1u : 0u},
+                                                          {"shadowed", shadow ? 1u : 0u}};
     vulkan::GraphicsState state;
     state.color_format = light_format;
     state.depth_format = depth_format;
@@ -192,13 +194,13 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
     if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
-    state.fragment = {vulkan::variant_name("collider.frag", {{"shadowed", shadow}})};
+    state.vertex = {"collider.vert"}, state.fragment = {"collider.frag"};
+    shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
         const bool mesh = range.has_corners;
-        state.vertex = {vulkan::variant_name("collider.vert", {{"mesh", mesh}})};
-        shadow_state.vertex = {vulkan::variant_name("shadow_collider.vert", {{"mesh", mesh}})};
-        shadow_state.constants.clear();
-        if (!mesh)
+        if (mesh)
+            shadow_state.constants = {{"is_mesh", 1}};
+        else
             shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
                                       {"round_columns", range.round_columns}};
         state.constants = shadow_state.constants;
@@ -215,16 +217,19 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
 }
 
 void RasterPass::make_compute_pipelines(bool cut) {
-    encoding_ = &compute_.get(vulkan::variant_name("encode.comp", {{"shadowed", casts_shadow() && has_floor_},
-                                                                   {"sampled", samples_ > 1 && !resolves_}}),
-                              [this](std::string_view name) {
-                                  return name == "has_floor"      ? (has_floor_ ? 1u : 0u)
-                                         : name == "strip_length" ? compute_.strip_length()
-                                                                  : tiles_.constant(name);
-                              });
-    const auto tile_constant = [this](std::string_view name) { return tiles_.constant(name); };
-    cloth_tiles_ = &compute_.get("cloth_tiles.comp", tile_constant);
-    if (cut) cut_cloth_tiles_ = &compute_.get("cloth_tiles_cut.comp", tile_constant);
+    encoding_ = &compute_.get("encode.comp", [this](std::string_view name) {
+        if (name == "has_floor") return std::uint32_t{has_floor_};
+        if (name == "shadowed") return std::uint32_t{casts_shadow() && has_floor_};
+        if (name == "sampled") return std::uint32_t{is_sampled()};
+        return name == "strip_length" ? compute_.strip_length() : tiles_.constant(name);
+    });
+    const auto tiles_of = [this](bool of_cut) {
+        return &compute_.get("cloth_tiles.comp", [this, of_cut](std::string_view name) {
+            return name == "cut" ? std::uint32_t{of_cut} : tiles_.constant(name);
+        });
+    };
+    cloth_tiles_ = tiles_of(false);
+    if (cut) cut_cloth_tiles_ = tiles_of(true);
     if (!casts_shadow()) return;
     constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
     const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
@@ -443,7 +448,7 @@ Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) con
         {"encode", "raster", "encode"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::compute_read, "frame");
-            setup.read(targets.light, Access::compute_read, "light");
+            setup.read(targets.light, Access::compute_read, is_sampled() ? "samples" : "light");
             setup.read(targets.tiles, Access::compute_read, "tiles");
             if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
             picture = setup.write(picture, Access::compute_write, "pixels");

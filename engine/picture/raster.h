@@ -74,6 +74,8 @@ class RasterPass {
     /// Draws what is drawn on the host, the legend of a heat map, into a picture that was read back.
     void finish(std::span<std::byte> rgba) const;
 
+    /// Returns whether the encoding pass reads the samples, not what they were resolved to.
+    bool is_sampled() const { return samples_ > 1 && !resolves_; }
     bool casts_shadow() const { return shadow_skip_reason_.empty(); }
     std::uint64_t readback_byte_count() const;
 

@@ -30,13 +30,22 @@ void add_copies_of_present(graph::Graph& graph, Pipelines& pipelines, ClothState
                            std::vector<Copy>& copies) {
     for (Copy& copy : copies) {
         const VkFormat format = declaration_of(graph, copy.from).format;
-        const vulkan::ComputePipeline& pipeline =
-            pipelines.get(vulkan::variant_name("copy_state.comp", {{"scalar", format == VK_FORMAT_R32_SFLOAT},
-                                                                   {"integer", format == VK_FORMAT_R32_UINT}}));
+        const auto value = [&](std::string_view constant) -> std::uint32_t {
+            return format == (constant == "scalar" ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32_UINT);
+        };
         const std::uint32_t height = copy.height / state.count();
         const glsl::GridPush push{{static_cast<int>(copy.width), static_cast<int>(height)}};
-        add_compute_pass(graph, state.pass_name(name, "judge"), pipeline, push, {copy.width, height, state.count()},
-                         {&state, nullptr, {}, {{"source", &copy.from}, {"target", &copy.to}}});
+        add_compute_pass(graph, state.pass_name(name, "judge"), pipelines.get("copy_state.comp", value), push,
+                         {copy.width, height, state.count()},
+                         {&state,
+                          nullptr,
+                          {},
+                          {{"source", &copy.from},
+                           {"source_scalar", &copy.from},
+                           {"source_integer", &copy.from},
+                           {"target", &copy.to},
+                           {"target_scalar", &copy.to},
+                           {"target_integer", &copy.to}}});
     }
 }
 
@@ -114,7 +123,7 @@ void add_remember(graph::Graph& graph, Pipelines& pipelines, ClothState& state) 
 void add_change_substep(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                         std::size_t first_change) {
     const vulkan::ComputePipeline& pipeline = pipelines.get(
-        vulkan::variant_name("change_substep.comp", {{"second_order", state.model->scheme.second_order}}));
+        "change_substep.comp", [&](std::string_view) { return state.model->scheme.second_order ? 1u : 0u; });
     const glsl::ChangeSubstepPush push{state.model->grid.size(), static_cast<int>(first_change)};
     add_compute_pass(graph, state.pass_name("change substep", "judge"), pipeline, push,
                      {state.model->grid.columns(), state.model->grid.rows(), state.count()}, {&state, nullptr, inputs});

@@ -308,7 +308,7 @@ void ClothSolver::add_step(graph::Graph& graph, ClothState* state, const Step& s
 void ClothSolver::add_normals(graph::Graph& graph) {
     for_each_dispatch([&](ClothState& state) {
         const vulkan::ComputePipeline& pipeline =
-            pipelines_.get(vulkan::variant_name("normal.comp", {{"masked", state.masked()}}));
+            pipelines_.get("normal.comp", [&](std::string_view) { return state.masked() ? 1u : 0u; });
         const Grid& grid = state.model->grid;
         add_compute_pass(graph, state.pass_name("normals", "normals"), pipeline, glsl::GridPush{grid.size()},
                          {grid.columns(), grid.rows(), state.count()}, {&state});
@@ -353,7 +353,7 @@ void ClothSolver::add_tension(graph::Graph& graph, ClothState& state) {
     const Grid& grid = state.model->grid;
     const std::vector<graph::PushConstants> each =
         pushes_of(state, *run_, [](const ClothModel& cloth) { return *cloth.scheme.gathered_tension; });
-    const std::string module = vulkan::variant_name("tension.comp", {{"masked", state.own_rest() != 0}});
+    const std::string module = "tension.comp";
     graph::Handle own = own_constants(graph, state, module, "tension", each);
     const auto value = [&](std::string_view) { return state.own_rest(); };
     add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines_.get(module, value, own.valid()),

@@ -11,17 +11,6 @@ namespace {
 using Place = const StepPlace&;
 using glsl::SelfContactPush;
 
-bool masked(Place p) { return p.cloth->masked(); }
-bool buffered(Place p) { return p.cloth->buffered; }
-bool sheet_is_buffered(Place p) { return p.contact->buffered; }
-bool second_order(Place p) { return p.cloth->model->scheme.second_order; }
-/// Returns whether the frame ends with the velocity that this step leaves, and the method keeps no history of its own.
-bool ends_frame(Place p) { return p.step.last && !second_order(p) && (*p.cloth)[Field::end_excess].valid(); }
-bool supported(Place p) { return !p.model.scene.colliders.empty(); }
-bool wide_atomics(Place p) { return p.device.wide_atomics(); }
-/// Returns whether some cloths started through each other.
-bool crossed(Place p) { return p.step.push<SelfContactPush>().crossed_count > 0; }
-
 /// Returns the push constants of a step of all cloths, with the capacity of the lists.
 graph::PushConstants contact_push(Place p) {
     SelfContactPush push = p.step.push<SelfContactPush>();
@@ -64,35 +53,29 @@ DispatchSize found_in_round(Place p, const ComputePipeline&) {
 std::vector<StepRow> contact_step_rows() {
     using namespace contact_rows;
     using enum Kernel;
-    const std::vector<VariantRow> if_crossed{{"crossed", crossed}}, if_wide{{"wide", wide_atomics}};
     // A step between a cloth's fields and the sheet takes its own push constants.
-    const auto of_cloth = [](StepKind kind, const char* label, const char* shader, std::vector<VariantRow> variants) {
-        variants.push_back({"buffered", buffered});
-        return StepRow{kind, label, {{plain, shader, std::move(variants), over_strips}}};
+    const auto of_cloth = [](StepKind kind, const char* label, const char* shader) {
+        return StepRow{kind, label, {{plain, shader, over_strips}}};
     };
-    const auto of_all = [](StepKind kind, const char* label, const char* shader, auto size,
-                           std::vector<VariantRow> variants = {}) {
-        return StepRow{kind, label, {{plain, shader, std::move(variants), size}}, contact_push};
+    const auto of_all = [](StepKind kind, const char* label, const char* shader, auto size) {
+        return StepRow{kind, label, {{plain, shader, size}}, contact_push};
     };
     using enum StepKind;
-    StepRow returned =
-        of_cloth(self_return, "self return", "self_return.comp", {{"history", second_order}, {"before", ends_frame}});
+    StepRow returned = of_cloth(self_return, "self return", "self_return.comp");
     returned.alias = before_alias;
     return {
-        of_cloth(self_gather, "self gather", "self_gather.comp", {{"masked", masked}, {"supported", supported}}),
-        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet, if_crossed),
+        of_cloth(self_gather, "self gather", "self_gather.comp"),
+        of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
         of_all(self_tree, "self tree", "self_tree.comp", found<glsl::self_size_tree>),
         of_all(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
         of_all(self_near, "self near", "self_near.comp", over_parts),
         of_all(self_crossings, "self crossings", "self_crossings.comp", found<glsl::self_size_primitives>),
         of_all(self_apart, "self apart", "self_apart.comp", over_cloths),
-        of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>,
-               if_crossed),
+        of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>),
         of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>),
-        of_all(self_begin, "self begin", "self_begin.comp", found<glsl::self_size_contact>, if_wide),
-        of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>, if_wide),
-        of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>,
-               {{"wide", wide_atomics}, {"crossed", crossed}, {"buffered", sheet_is_buffered}}),
+        of_all(self_begin, "self begin", "self_begin.comp", found<glsl::self_size_contact>),
+        of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>),
+        of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         returned,
     };

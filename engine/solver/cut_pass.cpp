@@ -39,7 +39,7 @@ void add_cut(graph::Graph& graph, Pipelines& pipelines, ClothState& state, graph
                                            grid.rows(), VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     graph::Handle count = add_cleared_count(graph, state.pass_name("cut count clear", "cut"), cut_count_name(model));
     const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("cut.comp", {{"masked", state.masked()}}));
+        pipelines.get("cut.comp", [&](std::string_view) { return state.masked() ? 1u : 0u; });
     const int triangles = static_cast<int>(cutter_count) * glsl::cutter_triangle_count;
     add_compute_pass(
         graph, state.pass_name("cut", "cut"), pipeline, glsl::CutPush{grid.size(), triangles, 0},

@@ -15,14 +15,11 @@
 
 namespace drape {
 
-/// Names of a shader's variants (`#pragma variants`), in its order, and whether each is chosen.
-using ShaderVariants = std::vector<std::pair<std::string_view, bool>>;
-
 class Pipelines {
   public:
     /// `present`: passes over cloths together are told which of them are (shaders/include/present.h).
     explicit Pipelines(const vulkan::Device& device, bool present = false) : device_(device), present_(present) {}
-    /// The pipeline of a module (spirv/), specialised by the values of exactly those constants that the module has;
+    /// The pipeline of a module, specialised by the values of exactly those constants that the module has;
     /// `own_constants` is that of `has_constants` (solver/cloth_constants.h).
     const vulkan::ComputePipeline& get(const std::string& module,
                                        const std::function<std::uint32_t(std::string_view constant)>& value,

@@ -18,17 +18,15 @@ std::uint32_t partial_count(const Grid& grid) { return grid.columns() * strip_co
 
 graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                            const SimulationModel& model) {
-    const std::string module =
-        vulkan::variant_name("statistics.comp", {{"masked", state.masked() && !state.model->rests_bent()},
-                                                 {"rests_bent", state.model->rests_bent()},
-                                                 {"colliding", inputs.colliders.valid() && !inputs.mesh_fields.valid()},
-                                                 {"meshes", inputs.mesh_fields.valid()}});
+    const std::string module = "statistics.comp";
     const std::vector<graph::PushConstants> each =
         pushes_of(state, model, [&](const ClothModel& cloth) { return statistics_push(model, cloth); });
     graph::Handle own = own_constants(graph, state, module, "statistics", each);
     const auto value = [&](std::string_view name) {
         if (name == "has_bend") return std::uint32_t{state.model->bend > 0};
         if (name == "has_skin") return std::uint32_t{state[Field::skin].valid()};
+        if (name == "masked") return std::uint32_t{state.masked()};
+        if (name == "rests_bent") return std::uint32_t{state.model->rests_bent()};
         return name == "own_rest" ? std::uint32_t{state.own_rest()} : scene_constant(model, name).value();
     };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());

@@ -28,18 +28,50 @@ std::uint32_t group_width(Place p) {
     return static_cast<std::uint32_t>(group_of_lines(p).x);
 }
 
+const MethodScheme& scheme_of(Place p) { return p.cloth->model->scheme; }
+bool has(Place p, Field field) { return (*p.cloth)[field].valid(); }
+bool second_order(Place p) { return scheme_of(p).second_order; }
+bool carries_tension(Place p) { return scheme_of(p).carries_tension[0]; }
+/// Passes store to the state's images, or to the sheet's, through their buffer views.
+bool buffered(Place p) { return p.cloth ? p.cloth->buffered : p.contact->buffered; }
+bool stores_tension(Place p) {
+    const auto& push = p.step.push<glsl::SpringPush>();
+    const auto direction = static_cast<std::size_t>(push.channel);
+    return has(p, tension_of(direction)) &&
+           (scheme_of(p).carries_tension[direction] || (p.step.last && push.compliance > 0));
+}
+/// All springs of an iteration: only the stretch springs' tension is stored, for the stretch error.
+bool stores_stretch_tension(Place p) {
+    return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
+           p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
+}
+/// Returns whether the frame ends with the velocity that this step leaves, and the method keeps no history of its own.
+bool ends_frame(Place p) { return p.step.last && !second_order(p) && has(p, Field::end_excess); }
+bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
+/// Returns whether some cloths started through each other.
+bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
+
 struct ConstantRow {
     std::string_view name;
     std::uint32_t (*value)(Place);
 };
 
+// clang-format off: every constant is a line.
 constexpr ConstantRow constant_rows[] = {
     {"advance", [](Place p) { return p.step.substep > 0 ? 1u : 0u; }},
+    {"after_edges", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
+    {"after_impulses", [](Place p) { return p.step.after_impulses ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
+    {"bends", [](Place p) { return p.step.push<glsl::LinePush>().bend > 0 ? 1u : 0u; }},
+    {"buffered", [](Place p) { return buffered(p) ? 1u : 0u; }},
+    {"carries_tension", [](Place p) { return carries_tension(p) ? 1u : 0u; }},
+    {"carries_to_release", [](Place p) { return scheme_of(p).release_stiffness.x > 0 ? 1u : 0u; }},
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
-    {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
-    {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
+    {"comes_home", [](Place p) { return p.cloth->away ? 1u : 0u; }},
+    {"control_comes_home", [](Place p) { return second_order(p) && p.step.substep % 2 == 1 ? 1u : 0u; }},
+    {"crossed", [](Place p) { return crossed(p) ? 1u : 0u; }},
     {"directions", direction_bits},
+    {"ends_frame", [](Place p) { return ends_frame(p) ? 1u : 0u; }},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},
     {"halo", [](Place p) { return tile_of(p.step.kind, p.cloth->model->grid).halo; }},
@@ -47,16 +79,30 @@ constexpr ConstantRow constant_rows[] = {
     {"has_shear", [](Place p) { return p.step.push<glsl::ExplicitPush>().relative_stiffness.z > 0 ? 1u : 0u; }},
     {"has_skin", [](Place p) { return (*p.cloth)[Field::skin].valid() ? 1u : 0u; }},
     {"has_skins", [](Place p) { return (*p.contact)[ContactField::skins].valid() ? 1u : 0u; }},
+    {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
+    {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
+    {"masked", [](Place p) { return p.cloth->masked() ? 1u : 0u; }},
+    {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
+    {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
+    {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},
+    {"stores_stretch_tension", [](Place p) { return stores_stretch_tension(p) ? 1u : 0u; }},
+    {"stores_tension", [](Place p) { return stores_tension(p) ? 1u : 0u; }},
     {"strip_columns", [](Place p) { return p.device.strip_columns(); }},
     {"strip_length", [](Place p) { return p.device.strip_length(); }},
     {"strip_rows", [](Place p) { return p.device.strip_rows(step_rounds(p)); }},
-    {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
+    {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
+    {"supported", [](Place p) { return p.model.scene.colliders.empty() ? 0u : 1u; }},
+    {"supporting", [](Place p) { return p.step.supporting || p.step.after_impulses ? 1u : 0u; }},
     {"turns", [](Place p) { return p.step.turns ? 1u : 0u; }},
+    {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
+    {"wide", [](Place p) { return p.device.wide_atomics() ? 1u : 0u; }},
+    {"windy", [](Place p) { return has(p, Field::wind_force) ? 1u : 0u; }},
 };
+// clang-format on
 
 }  // namespace
 

@@ -5,51 +5,44 @@
 #include <set>
 
 #include "solver/step_row.h"
-#include "spirv_modules.h"
 
 namespace drape {
 
 namespace {
 
-/// Whether a module is the shader in one of its variants.
-bool is_variant(std::string_view module, const KernelRow& kernel) {
-    const std::string_view stem = kernel.shader.substr(0, kernel.shader.rfind('.'));
-    if (!module.starts_with(stem) || !module.ends_with(".comp")) return false;
-    std::string_view rest = module.substr(stem.size(), module.rfind('.') - stem.size());
-    for (const VariantRow& variant : kernel.variants) {
-        const std::string part = "_" + std::string(variant.name);
-        if (rest.starts_with(part)) rest.remove_prefix(part.size());
-    }
-    return rest.empty();
-}
-
 struct ResourceUse {
     bool read = false, written = false;
-    std::size_t modules = 0;  ///< that use it
+    bool always = true;
 };
 
-/// The uses of a kernel's resources over all variants of its shader: "read | updated | written".
+std::set<std::string> names_in(const vulkan::ReflectedModule& module) {
+    std::set<std::string> names;
+    for (const vulkan::ReflectedDescriptor& each : module.descriptors) names.emplace(resource_of(each.name));
+    return names;
+}
+
+/// The uses of a kernel's resources, whatever its shader's constants are: "read | updated | written". One is used
+/// always that no constant leaves out alone.
 std::string uses_text(const KernelRow& kernel) {
+    const std::string shader(kernel.shader);
+    const vulkan::ReflectedModule& whole = vulkan::module_interface(shader);
     std::map<std::string, ResourceUse> uses;
-    std::size_t modules = 0;
-    for (const SpirvModule& module : spirv_modules()) {
-        if (!is_variant(module.name, kernel)) continue;
-        ++modules;
-        std::set<std::string> used;
-        const vulkan::ReflectedModule& interface = vulkan::module_interface(std::string(module.name));
-        for (const auto& descriptor : interface.descriptors) {
-            const std::string name(resource_of(descriptor.name));
-            uses[name].read |= descriptor.readable;
-            uses[name].written |= descriptor.writable;
-            if (!interface.constants.contains("has_" + name)) used.insert(name);
-        }
-        for (const std::string& name : used) ++uses[name].modules;
+    for (const vulkan::ReflectedDescriptor& each : whole.descriptors) {
+        ResourceUse& use = uses[std::string(resource_of(each.name))];
+        use.read |= each.readable;
+        use.written |= each.writable;
     }
+    for (const auto& [constant, id] : whole.constants)
+        for (const std::uint32_t value : {0u, 1u}) {
+            const vulkan::SpecializationConstant only[] = {{constant, value}};
+            const std::set<std::string> used = names_in(vulkan::specialised_module(shader, only).reflected);
+            for (auto& [name, use] : uses) use.always &= used.contains(name);
+        }
     const auto listed = [&](bool read, bool written) {
         std::string text;
         for (const auto& [name, use] : uses)
             if (use.read == read && use.written == written)
-                text += (text.empty() ? "" : ", ") + (use.modules < modules ? "[" + name + "]" : name);
+                text += (text.empty() ? "" : ", ") + (use.always ? name : "[" + name + "]");
         return text;
     };
     return fmt::format("{} | {} | {}", listed(true, false), listed(true, true), listed(false, true));
@@ -62,10 +55,9 @@ std::string step_document() {
         "# Which pass reads and writes what?\n\n"
         "The steps of a frame in the order of `StepKind` (`engine/cloth/step.h`), with the shaders that do them, and "
         "the\n"
-        "fields that these read, update and write. `[x]` is used by some variants of the shader only; `[constants]` "
-        "are "
-        "those\nof cloths together, where they differ (`shaders/include/push.h`), `[skin]` and `[skins]` what maps of "
-        "friction and\nthickness give (`shaders/include/skin.h`). The other names are those\n"
+        "fields that these read, update and write. `[x]` is left out by some values of the shader's constants; "
+        "`[constants]`\nare those of cloths together, where they differ (`shaders/include/push.h`), `[skin]` and "
+        "`[skins]` what maps of\nfriction and thickness give (`shaders/include/skin.h`). The other names are those\n"
         "of `engine/cloth/cloth_state.cpp` and `contact_state.cpp` with underscores; a row of "
         "`engine/solver/step_rows.cpp`\n"
         "says where a name means another field, and where a step writes the spare field instead. `drape graph "

@@ -12,12 +12,6 @@ namespace drape {
 
 namespace {
 
-std::string module_of(const KernelRow& kernel, const StepPlace& place) {
-    ShaderVariants variants;
-    for (const VariantRow& row : kernel.variants) variants.emplace_back(row.name, row.is_taken(place));
-    return vulkan::variant_name(kernel.shader, variants);
-}
-
 graph::PushConstants push_of(const StepConstants& constants) {
     return std::visit(
         []<class Push>(const Push& push) {
@@ -80,8 +74,6 @@ Field control_of(const Step& step, bool written) {
 
 /// Names of resources that a step takes for others: the spare images where it writes those, and the row's own.
 std::string alias_of(const StepRow& row, const StepPlace& place, Turn turned, std::string_view name, bool written) {
-    // Cloth that is flat at rest has no targets; where nothing reads them, an image must be bound nevertheless.
-    if (name == "bend_targets" && !(*place.cloth)[Field::bend_targets].valid()) return "spring_shares";
     if (row.alias)
         if (std::string other = row.alias(place, name, written); !other.empty()) return other;
     if (name == row_of(Field::line_control).variable()) return row_of(control_of(place.step, written)).variable();
@@ -100,7 +92,7 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const auto kernel = std::ranges::find(row.kernels, step.kernel, &KernelRow::kernel);
     if (kernel == row.kernels.end()) throw std::logic_error("a step has a kernel that its row has not");
     const StepPlace place{step, cloth, contact, model, pipelines};
-    const std::string module = module_of(*kernel, place);
+    const std::string module(kernel->shader);
     const std::vector<graph::PushConstants> each = pushes_of_each(row, place);
     graph::Handle own = each.empty() ? graph::Handle() : own_constants(graph, *cloth, module, module, each);
     const auto value = [&](std::string_view name) { return step_constant(place, name); };

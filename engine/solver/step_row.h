@@ -20,17 +20,10 @@ struct StepPlace {
     const Pipelines& device;
 };
 
-/// A name of `#pragma variants` and whether a step takes that variant.
-struct VariantRow {
-    std::string_view name;
-    bool (*is_taken)(const StepPlace&);
-};
-
 /// A shader that does a step's work.
 struct KernelRow {
     Kernel kernel;
     std::string_view shader;  ///< "spring.comp"
-    std::vector<VariantRow> variants;
     /// Invocations; the pipeline is the chosen one, specialised.
     DispatchSize (*size)(const StepPlace&, const vulkan::ComputePipeline&);
 };
@@ -67,7 +60,8 @@ std::span<const StepRow> step_rows();
 /// The rows of contact between cloths; the last of `step_rows`.
 std::vector<StepRow> contact_step_rows();
 
-/// The value of a specialization constant of a step's shader. Throws std::logic_error for a name that it does not know.
+/// The value of a specialization constant of a step's shader, which has one for all that it is with or without. Throws
+/// std::logic_error for a name that it does not know.
 std::uint32_t step_constant(const StepPlace& place, std::string_view name);
 /// Those that follow from the scene alone: where each kind of collider ends in the list, `leaves_out`, `round_count`.
 std::optional<std::uint32_t> scene_constant(const SimulationModel& model, std::string_view name);

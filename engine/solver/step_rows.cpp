@@ -17,39 +17,7 @@ std::size_t channel_of(Place p) {
     return static_cast<std::size_t>(p.step.push<Push>().channel);
 }
 const MethodScheme& scheme_of(Place p) { return p.cloth->model->scheme; }
-bool has(Place p, Field field) { return (*p.cloth)[field].valid(); }
 
-// The variants of the shaders stand for these.
-bool masked(Place p) { return p.cloth->masked(); }
-bool buffered(Place p) { return p.cloth->buffered; }
-bool windy(Place p) { return has(p, Field::wind_force); }
-bool second_order(Place p) { return scheme_of(p).second_order; }
-bool after_edges(Place p) { return p.step.after_edges; }
-bool after_impulses(Place p) { return p.step.after_impulses; }
-bool meets_meshes(Place p) { return !p.model.mesh_fields.empty(); }
-/// Few scenes have meshes, which move few particles: modules that store these through buffers would not pay.
-bool collides_buffered(Place p) { return buffered(p) && !meets_meshes(p); }
-bool supporting(Place p) { return p.step.supporting && !p.step.after_impulses; }
-bool keeps_excess(Place p) { return has(p, Field::end_excess); }
-bool comes_home(Place p) { return p.cloth->away; }
-bool control_comes_home(Place p) { return second_order(p) && p.step.substep % 2 == 1; }
-bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
-bool carries_to_release(Place p) { return scheme_of(p).release_stiffness.x > 0; }
-bool releases_tension(Place p) { return carries_to_release(p) && !masked(p); }
-bool releases_masked_tension(Place p) { return carries_to_release(p) && masked(p); }
-bool bends(Place p) { return p.step.push<glsl::LinePush>().bend > 0; }
-bool shears(Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0; }
-bool stores_spring_tension(Place p) {
-    const std::size_t direction = channel_of<glsl::SpringPush>(p);
-    return has(p, tension_of(direction)) &&
-           (scheme_of(p).carries_tension[direction] || (p.step.last && p.step.push<glsl::SpringPush>().compliance > 0));
-}
-bool carries_tension(Place p) { return scheme_of(p).carries_tension[0]; }
-/// All springs of an iteration: only the stretch springs' tension is stored, for the stretch error.
-bool stores_stretch_tension(Place p) {
-    return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
-           p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
-}
 std::string spring_label(Place p) {
     const auto& push = p.step.push<glsl::SpringPush>();
     return fmt::format("spring {} {}", spring_directions[static_cast<std::size_t>(push.channel)].name,
@@ -148,48 +116,37 @@ std::string collider_edges_alias(Place p, std::string_view name, bool written) {
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
 }
 
-using Variants = std::vector<VariantRow>;
-
 // clang-format off: every kernel is a line.
 /// Returns the rows by StepKind up to springs one by one, then those up to contact between cloths: label, kernels, push
 /// constants, turn, aliases.
 std::vector<StepRow> first_rows() {
     using enum Kernel;
-    const Variants none, masked_only{{"masked", masked}}, cut{{"masked", masked}, {"buffered", buffered}},
-        release{{"tension", releases_tension}, {"masked", releases_masked_tension}, {"second_order", second_order}},
-        predict{{"wind", windy}, {"buffered", buffered}},
-        force{{"wind", windy}, {"before", keeps_before}, {"buffered", buffered}},
-        explicit_step{{"masked", masked}, {"wind", windy}, {"buffered", buffered}},
-        order{{"second_order", second_order}}, all_twist{{"masked", masked}, {"second_order", second_order}},
-        twist{{"masked", masked}, {"second_order", second_order}, {"buffered", buffered}},
-        spring{{"masked", masked}, {"tension", stores_spring_tension}, {"buffered", buffered}};
     return {
-        {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", none, over_particles}}, stiffness_push},
-        {StepKind::release, "pin release", {{plain, "pin_release.comp", release, over_pins}}, release_push},
-        {StepKind::wind, "wind", {{plain, "wind.comp", cut, over_wide_columns}}, wind_push},
-        {StepKind::predict, "predict", {{plain, "predict.comp", predict, over_strips}}, nullptr, turns_if_asked},
-        {StepKind::force, "force", {{plain, "force.comp", force, over_strips}}, nullptr, turns_if_asked},
+        {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", over_particles}}, stiffness_push},
+        {StepKind::release, "pin release", {{plain, "pin_release.comp", over_pins}}, release_push},
+        {StepKind::wind, "wind", {{plain, "wind.comp", over_wide_columns}}, wind_push},
+        {StepKind::predict, "predict", {{plain, "predict.comp", over_strips}}, nullptr, turns_if_asked},
+        {StepKind::force, "force", {{plain, "force.comp", over_strips}}, nullptr, turns_if_asked},
         {StepKind::explicit_step,
          explicit_label,
-         {{plain, "explicit.comp", explicit_step, over_particles},
-          {explicit_stream, "explicit_stream.comp", masked_only, over_explicit_stream},
-          {explicit_tile, "explicit_tile.comp", masked_only, over_tiles}},
+         {{plain, "explicit.comp", over_particles},
+          {explicit_stream, "explicit_stream.comp", over_explicit_stream},
+          {explicit_tile, "explicit_tile.comp", over_tiles}},
          nullptr,
          turns_state},
-        {StepKind::pin, "pin motion", {{plain, "pin_motion.comp", none, over_pins}}, pin_push},
-        {StepKind::bend_targets, "bending at rest", {{plain, "bend_targets.comp", order, over_particles}}},
-        {StepKind::bend_pulls, "pulls of bending", {{plain, "bend_pulls.comp", none, over_particles}}, grid_push},
-        {StepKind::bend, bend_label, {{plain, "bend.comp", cut, over_bends}}},
-        {StepKind::twist, twist_label, {{plain, "twist.comp", twist, over_twists}}},
+        {StepKind::pin, "pin motion", {{plain, "pin_motion.comp", over_pins}}, pin_push},
+        {StepKind::bend_targets, "bending at rest", {{plain, "bend_targets.comp", over_particles}}},
+        {StepKind::bend_pulls, "pulls of bending", {{plain, "bend_pulls.comp", over_particles}}, grid_push},
+        {StepKind::bend, bend_label, {{plain, "bend.comp", over_bends}}},
+        {StepKind::twist, twist_label, {{plain, "twist.comp", over_twists}}},
         {StepKind::all_twist,
          "twist of all cells",
-         {{twist_stream, "twist_stream.comp", all_twist, over_twist_stream},
-          {twist_tile, "twist_tile.comp", all_twist, over_tiles}},
+         {{twist_stream, "twist_stream.comp", over_twist_stream}, {twist_tile, "twist_tile.comp", over_tiles}},
          nullptr,
          turns_displacement},
         {StepKind::spring,
          spring_label,
-         {{plain, "spring.comp", spring, over_springs}},
+         {{plain, "spring.comp", over_springs}},
          spring_push,
          nullptr,
          tension_alias<glsl::SpringPush>},
@@ -198,58 +155,38 @@ std::vector<StepRow> first_rows() {
 
 std::vector<StepRow> other_rows() {
     using enum Kernel;
-    const Variants none, stored{{"buffered", buffered}}, masked_only{{"masked", masked}},
-        edges{{"masked", masked}, {"meshes", meets_meshes}, {"buffered", collides_buffered}},
-        springs{{"masked", masked}, {"tension", stores_stretch_tension}, {"carried", carries_tension}},
-        line{{"masked", masked}, {"bent", bends}, {"buffered", buffered}}, reduced{{"masked", masked}, {"bent", bends}},
-        nested{{"masked", masked}, {"sheared", shears}, {"buffered", buffered}},
-        collide{{"history", second_order},          {"led", after_edges},     {"supporting", supporting},
-                {"after_impulses", after_impulses}, {"meshes", meets_meshes}, {"buffered", collides_buffered}},
-        advance{{"home", comes_home},
-                {"control_home", control_comes_home},
-                {"excess", keeps_excess},
-                {"buffered", buffered}};
     return {
         {StepKind::all_springs,
          "all springs",
-         {{spring_stream, "spring_stream.comp", springs, over_spring_stream},
-          {spring_tile, "spring_tile.comp", springs, over_tiles}},
+         {{spring_stream, "spring_stream.comp", over_spring_stream}, {spring_tile, "spring_tile.comp", over_tiles}},
          nullptr,
          turns_displacement,
          all_springs_alias},
         {StepKind::line,
          line_label,
-         {{plain, "line.comp", line, over_lines},
-          {line_parts, "line_parts.comp", masked_only, over_line_parts},
-          {line_cyclic, "line_cyclic.comp", reduced, over_line_particles}},
+         {{plain, "line.comp", over_lines},
+          {line_parts, "line_parts.comp", over_line_parts},
+          {line_cyclic, "line_cyclic.comp", over_line_particles}},
          nullptr,
          nullptr,
          tension_alias<glsl::LinePush>},
-        {StepKind::nested, "nested boxes", {{plain, "nested.comp", nested, over_nested_pins}}},
-        {StepKind::tether, "tethers", {{plain, "tether.comp", stored, over_strips}}, grid_push},
+        {StepKind::nested, "nested boxes", {{plain, "nested.comp", over_nested_pins}}},
+        {StepKind::tether, "tethers", {{plain, "tether.comp", over_strips}}, grid_push},
         {StepKind::collider_edges,
          collider_edges_label,
-         {{plain, "collider_edges.comp", edges, over_columns}},
+         {{plain, "collider_edges.comp", over_columns}},
          collider_edges_push,
          nullptr,
          collider_edges_alias},
         {StepKind::collide,
          "collision",
-         {{plain, "collision.comp", collide, over_columns}},
+         {{plain, "collision.comp", over_columns}},
          collision_push,
          nullptr,
          before_alias},
-        {StepKind::residual, "residual", {{plain, "residual.comp", masked_only, over_residual_strips}}, residual_push},
-        {StepKind::decide,
-         "iteration decision",
-         {{plain, "iteration_decision.comp", none, one_invocation}},
-         decide_push},
-        {StepKind::advance,
-         "advance",
-         {{plain, "advance.comp", advance, over_strips}},
-         grid_push,
-         turns_home,
-         before_alias},
+        {StepKind::residual, "residual", {{plain, "residual.comp", over_residual_strips}}, residual_push},
+        {StepKind::decide, "iteration decision", {{plain, "iteration_decision.comp", one_invocation}}, decide_push},
+        {StepKind::advance, "advance", {{plain, "advance.comp", over_strips}}, grid_push, turns_home, before_alias},
     };
 }
 // clang-format on

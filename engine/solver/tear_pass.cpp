@@ -15,9 +15,10 @@ void add_tear(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     graph::Handle loads = graph.image({tear_loads_name(model), VK_FORMAT_R32G32B32A32_SFLOAT, grid.columns(),
                                        grid.rows(), VK_SAMPLE_COUNT_1_BIT, graph::Lifetime::persistent});
     graph::Handle count = add_cleared_count(graph, state.pass_name("tear count clear", "tear"), tear_count_name(model));
-    const vulkan::ComputePipeline& pipeline =
-        pipelines.get(vulkan::variant_name("tear.comp", {{"masked", state.masked()}}),
-                      [&](std::string_view) { return state.own_rest(); });
+    const auto value = [&](std::string_view name) {
+        return name == "masked" ? std::uint32_t{state.masked()} : state.own_rest();
+    };
+    const vulkan::ComputePipeline& pipeline = pipelines.get("tear.comp", value);
     add_compute_pass(graph, state.pass_name("tear", "tear"), pipeline, tear_push(model), {grid.columns(), grid.rows()},
                      {.cloth = &state, .own = {{"tear_loads", &loads}, {"count", &count}}});
 }

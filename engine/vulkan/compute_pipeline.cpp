@@ -29,10 +29,9 @@ ComputePipeline::ComputePipeline(const Device& device, std::string name, const S
     const ShaderStage stage(device, name_, shader, VK_SHADER_STAGE_COMPUTE_BIT, constants);
     const ShaderStage* const stages[] = {&stage};
     require_constants(name_, constants, stages);
-    local_size_ = stage.local_size();
+    local_size_ = stage.reflected().local_size;
     require_local_size(device, name_, local_size_);
     make_layout(stages);
-    set_idle(stage);
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage = stage.create_info();
     info.layout = layout_;
@@ -41,14 +40,6 @@ ComputePipeline::ComputePipeline(const Device& device, std::string name, const S
           "vkCreateComputePipelines", name_);
     handle_ = pipeline;
     device.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle_), name_);
-}
-
-void ComputePipeline::set_idle(const ShaderStage& stage) {
-    std::erase_if(descriptors_, [&](const ReflectedDescriptor& each) {
-        const bool idle = each.kind == DescriptorKind::storage_buffer && stage.leaves_out(each);
-        if (idle) idle_bindings_.push_back(each.binding);
-        return idle;
-    });
 }
 
 }  // namespace drape::vulkan

@@ -95,7 +95,7 @@ class Device {
     void submit(std::span<const VkCommandBuffer> commands, VkFence fence, std::string_view object) const;
     /// Records with `record`, submits, waits: for set-up and tests, never in the frame loop.
     void run_once(const std::function<void(VkCommandBuffer)>& record) const;
-    /// Returns the pipeline of a committed module and its constants. It is made when first asked for, which takes a
+    /// Returns the pipeline of a module and its constants. It is made when first asked for, which takes a
     /// driver 2 to 30 ms (docs/devices.md), and kept as long as the device, for every run on it. Throws as
     /// ComputePipeline does.
     const ComputePipeline& compute_pipeline(const std::string& module,

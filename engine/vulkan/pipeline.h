@@ -10,20 +10,14 @@
 #include <vector>
 
 #include "vulkan/device.h"
-#include "vulkan/reflection.h"
+#include "vulkan/specialisation.h"
 
 namespace drape::vulkan {
 
-/// A constant has its name in GLSL and a 32-bit value (floats by std::bit_cast).
-struct SpecializationConstant {
-    std::string_view name;
-    std::uint32_t value;
-};
-
-/// A module is found by its name in spirv/.
+/// A module is found by the name of its shader.
 struct Shader {
-    std::string module;                         ///< "spring_masked.comp"; empty: none
-    std::span<const std::uint32_t> words = {};  ///< tests use this SPIR-V instead of the committed module
+    std::string module;                         ///< "spring.comp"; empty: none
+    std::span<const std::uint32_t> words = {};  ///< tests use this SPIR-V instead of the module of that name
 };
 
 VkDescriptorType descriptor_type(DescriptorKind kind);
@@ -40,10 +34,8 @@ class Pipeline {
     VkPipelineLayout layout() const { return layout_; }
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
-    /// Returns the union over the stages, sorted by binding, of those that are used.
+    /// Returns the union over the stages, sorted by binding, of those that are used as specialised.
     const std::vector<ReflectedDescriptor>& descriptors() const { return descriptors_; }
-    /// Returns the bindings of storage buffers that are there but, as specialised, not used: any buffer will do.
-    const std::vector<std::uint32_t>& idle_bindings() const { return idle_bindings_; }
     const std::optional<ReflectedStruct>& push_constants() const { return push_constants_; }
     VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
 
@@ -59,7 +51,6 @@ class Pipeline {
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineBindPoint bind_point_;
     std::vector<ReflectedDescriptor> descriptors_;
-    std::vector<std::uint32_t> idle_bindings_;
     std::optional<ReflectedStruct> push_constants_;
     VkShaderStageFlags push_constant_stages_ = 0;
 
@@ -78,8 +69,6 @@ class ComputePipeline : public Pipeline {
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
-    /// Takes those descriptors out that the stage does not use as specialised.
-    void set_idle(const ShaderStage& stage);
     std::array<std::uint32_t, 3> local_size_{};
 };
 

@@ -304,12 +304,4 @@ const ReflectedModule& module_interface(const std::string& name) {
                                   : modules.emplace(name, reflect(spirv_module(name), name)).first->second;
 }
 
-std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants) {
-    const std::size_t dot = shader.rfind('.');
-    std::string name(shader.substr(0, dot));
-    for (const auto& [variant, chosen] : variants)
-        if (chosen) name.append("_").append(variant);
-    return name.append(shader.substr(dot));
-}
-
 }  // namespace drape::vulkan

@@ -73,15 +73,11 @@ std::string element_difference(const ReflectedDescriptor& shader, const glsl::St
 /// Returns the same for push constants, whose size C++ may round up to 16 bytes.
 std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const glsl::StructLayout* layout);
 
-/// Returns the committed SPIR-V of `name` ("spring_masked.comp"); throws VulkanError when there is none.
+/// Returns the SPIR-V of a shader ("spring.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
-/// Returns what the committed module of that name says of itself; it is read once. Throws as `reflect` and
+/// Returns what the module of that name says of itself, whatever its constants are; it is read once. Throws as `reflect` and
 /// `spirv_module` do.
 const ReflectedModule& module_interface(const std::string& name);
-
-/// Returns the name of the module of a shader's variant (spirv/CMakeLists.txt): "line.comp", {{"masked", true},
-/// {"tension", false}} -> "line_masked.comp". Variants stand in the order of the shader's pragma.
-std::string variant_name(std::string_view shader, const std::vector<std::pair<std::string_view, bool>>& variants);
 
 }  // namespace drape::vulkan

@@ -1,5 +1,5 @@
 // A particle feels the elements in whose tangents it is (rest_bend.h), where a cloth rests bent: they turn with it. The
-// includer is MASKED, and has include/bend_target.h and include/rest_bend.h.
+// includer has include/bend_target.h and include/rest_bend.h.
 vec3 bend_pull(ivec2 texel) {
     ivec2 left = texel - ivec2(1, 0), up = texel - ivec2(0, 1), last = push.grid - 1;
     vec4 shares = LOAD(spring_shares, texel);

@@ -2,15 +2,11 @@
 // wide as the grid; texels of elements along rows and columns are their middle particle's, those of cells their
 // corner's.
 #include "include/rest_length.h"
-#ifdef MASKED
 layout(set = 0, binding = 17, rgba32f) uniform readonly image2D bend_targets;
-#endif
 
 vec3 bend_part(ivec2 owner, int part) {
     vec3 found = vec3(0.0f, 0.0f, 0.0f);
-#ifdef MASKED
     if (own_rest) found = LOAD(bend_targets, owner + ivec2(part * push.grid.x, 0)).xyz;
-#endif
     return found;
 }
 

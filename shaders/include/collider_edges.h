@@ -169,7 +169,6 @@ SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
     return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
 }
 
-#ifdef MESHES
 /// The plane that touches a mesh where that is nearest to a corner of a triangle: normal (unit, outward, local) and the
 /// corner's distance from it, m, negative inside.
 SHARED vec4 touching_plane(vec3 local, ColliderRecord mesh WITH_FIELDS) {
@@ -313,7 +312,6 @@ SHARED bool near_mesh(vec3 local, vec4 plane, ColliderRecord collider, float rea
     precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
     return beyond.x < reach && beyond.y < reach && beyond.z < reach && abs(plane.w) < reach;
 }
-#endif
 
 /// Displacement of a particle that a collider has moved by `taken` (m, local), with friction. `surface`: the collider's
 /// own displacement there, m, world frame.

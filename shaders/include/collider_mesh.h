@@ -8,18 +8,17 @@ layout(constant_id = 0) const int collider_kind = kind_plane;
 layout(constant_id = 1) const int round_columns = most_round_columns;
 layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstance colliders[]; };
 
-#ifdef MESH
+layout(constant_id = 24) const bool is_mesh = false;  // its triangles are those of a file
 layout(set = 0, binding = 2, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
-#endif
 
 #if COLLIDER_KINDS != 6
 #error "mesh_vertex takes the new kind for a plane"
 #endif
 MeshVertex mesh_vertex(ColliderInstance collider, int vertex) {
-#ifdef MESH
-    MeshCorner corner = mesh_corners[vertex];
-    return MeshVertex(corner.position.xyz, corner.normal.xyz);
-#endif
+    if (is_mesh) {
+        MeshCorner corner = mesh_corners[vertex];
+        return MeshVertex(corner.position.xyz, corner.normal.xyz);
+    }
     ivec2 segment = round_corner(round_columns, vertex);
     if (collider_kind == kind_sphere) return ellipsoid_vertex(collider.shape.xxx, segment, round_columns);
     if (collider_kind == kind_ellipsoid) return ellipsoid_vertex(collider.shape.xyz, segment, round_columns);

@@ -16,19 +16,26 @@ struct SurfacePoint {
     float distance;  // m, negative inside
 };
 
-// The fields of meshes (shared/collider_types.h). A shader without MESHES has none, and no mesh either.
+// The fields of meshes (shared/collider_types.h). A shader of a scene without meshes needs none.
 #ifdef __cplusplus
 #define WITH_FIELDS , const vec4* fields
 #define FIELDS , fields
 #define FIELD_TEXEL(place) fields[place]
-#define MESHES
+const bool has_meshes = true;
 #else
 #define WITH_FIELDS
 #define FIELDS
-#ifdef MESHES
+// The list is sorted by kind, and these say where each kind ends: loops over kinds that a scene lacks fold away.
+layout(constant_id = 0) const int planes_end = 0;
+layout(constant_id = 1) const int spheres_end = 0;
+layout(constant_id = 2) const int boxes_end = 0;
+layout(constant_id = 3) const int ellipsoids_end = 0;
+layout(constant_id = 4) const int capsules_end = 0;
+layout(constant_id = 5) const int meshes_end = 0;
+const bool has_meshes = capsules_end < meshes_end;
+layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer mesh_fields;
 #define FIELD_TEXEL(place) imageLoad(mesh_fields, place)
-#endif
 #endif
 
 SHARED vec3 local_point(ColliderRecord collider, vec3 world) {
@@ -165,9 +172,7 @@ SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     return sphere_surface(vec3(local.x, upper ? below_upper : above, local.z), upper ? size.z : size.y);
 }
 
-#ifdef MESHES
 #include "include/mesh_field.h"
-#endif
 
 struct Contact {
     vec3 displacement;
@@ -225,9 +230,8 @@ SHARED SurfacePoint plane_surface(ColliderRecord collider, vec3 world) {
 /// frame is `local`. The normal of a plane is in the world frame, else in the local one.
 SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local WITH_FIELDS) {
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-#ifdef MESHES
-    if (kind == kind_mesh) return mesh_surface(collider, local, 1.0f FIELDS);
-#endif
+    if (has_meshes)
+        if (kind == kind_mesh) return mesh_surface(collider, local, 1.0f FIELDS);
     if (kind != kind_plane) return shape_surface(kind, local, size);
     return plane_surface(collider, world);
 }
@@ -249,9 +253,8 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
 /// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known, and a mesh may be as thin
 /// as it likes somewhere.
 SHARED float least_half_width(int kind, vec3 size) {
-#ifdef MESHES
-    if (kind == kind_mesh) return 0.0f;
-#endif
+    if (has_meshes)
+        if (kind == kind_mesh) return 0.0f;
     float ends = size.y < size.z ? size.y : size.z;
     float least = size.x < ends ? size.x : ends;
     return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;
@@ -355,23 +358,19 @@ SHARED vec3 local_at_start(ColliderRecord collider, vec3 start) { return local_p
 
 /// Returns whether a collider is a mesh that deforms, which its field says.
 SHARED bool is_deforming(int kind, ColliderRecord collider WITH_FIELDS) {
-#ifdef MESHES
-    if (kind == kind_mesh) return FIELD_TEXEL(int(collider.way_out.x) + 1).w > 0.0f;
-#endif
+    if (has_meshes)
+        if (kind == kind_mesh) return FIELD_TEXEL(int(collider.way_out.x) + 1).w > 0.0f;
     return false;
 }
 
 /// Returns how far the surface nearest to `local` of one that deforms moved during the substep, beside what its pose
 /// moved, world frame, m.
 SHARED vec3 deformation(ColliderRecord collider, vec3 local WITH_FIELDS) {
-#ifdef MESHES
+    if (!has_meshes) return vec3(0.0f, 0.0f, 0.0f);
     int head = int(collider.way_out.x);
     vec3 in_frame = deformed_by(head + field_head, field_place(head, local FIELDS) FIELDS);
     precise vec3 moved = in_frame * FIELD_TEXEL(head + 1).w;
     return world_direction(at_start(collider), moved);
-#else
-    return vec3(0.0f, 0.0f, 0.0f);
-#endif
 }
 
 /// How a particle comes into a shape.
@@ -385,9 +384,8 @@ struct WayIn {
 
 /// Returns the surface that a particle meets on its way: of a mesh that deforms, as a share of the substep leaves it.
 SHARED SurfacePoint surface_on_way(int kind, ColliderRecord collider, vec3 world, vec3 local, float share WITH_FIELDS) {
-#ifdef MESHES
-    if (kind == kind_mesh) return mesh_surface(collider, local, share FIELDS);
-#endif
+    if (has_meshes)
+        if (kind == kind_mesh) return mesh_surface(collider, local, share FIELDS);
     return collider_surface(kind, collider, world, local FIELDS);
 }
 
@@ -477,23 +475,5 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     return Contact(contact_displacement(displacement, surface, out_of, depth, pair_friction), depth, out_of,
                    vec4(surface.x, surface.y, surface.z, pair_friction), led);
 }
-
-#ifndef __cplusplus
-
-// The list is sorted by kind, and these say where each kind ends: loops over kinds that a scene lacks fold away.
-layout(constant_id = 0) const int planes_end = 0;
-layout(constant_id = 1) const int spheres_end = 0;
-layout(constant_id = 2) const int boxes_end = 0;
-layout(constant_id = 3) const int ellipsoids_end = 0;
-layout(constant_id = 4) const int capsules_end = 0;
-#ifdef MESHES
-layout(constant_id = 5) const int meshes_end = 0;
-#define COLLIDERS_END meshes_end
-#else
-#define COLLIDERS_END capsules_end
-#endif
-layout(set = 0, binding = 5, std430) readonly buffer Colliders { ColliderRecord colliders[]; };
-
-#endif
 
 #endif

@@ -11,7 +11,7 @@ ColliderRecord early_colliders[early_collider_count];
 
 void read_colliders(int first) {
     [[unroll]] for (int i = 0; i < early_collider_count; ++i) {
-        if (i < COLLIDERS_END) early_colliders[i] = colliders[first + i];
+        if (i < meshes_end) early_colliders[i] = colliders[first + i];
     }
 }
 
@@ -24,9 +24,8 @@ const int collider_texel_count = 8, collider_shape_texel = 6, collider_motion_te
 #error "kind_of_collider takes the new kind for a capsule; near_early and contact_with_all leave it out"
 #endif
 int kind_of_collider(int i) {
-#ifdef MESHES
-    if (i >= capsules_end) return kind_mesh;
-#endif
+    if (has_meshes)
+        if (i >= capsules_end) return kind_mesh;
     return i < planes_end       ? kind_plane
            : i < spheres_end    ? kind_sphere
            : i < boxes_end      ? kind_box
@@ -45,12 +44,11 @@ vec4 collider_ball(int first, int i, float length, float thickness) {
     precise float behind = (most_way(length, motion) + thickness) * 2.0f;
     float reach = far ? behind : thickness;
     precise float radius = bounding_radius(kind, size) + (reach - thickness);
-#ifdef MESHES
-    if (kind == kind_mesh) {
-        precise float grown = radius + imageLoad(collider_texels, texel + collider_motion_texel).y;
-        radius = grown;
-    }
-#endif
+    if (has_meshes)
+        if (kind == kind_mesh) {
+            precise float grown = radius + imageLoad(collider_texels, texel + collider_motion_texel).y;
+            radius = grown;
+        }
     return vec4(imageLoad(collider_texels, texel).w, imageLoad(collider_texels, texel + 1).w,
                 imageLoad(collider_texels, texel + 2).w, radius);
 }
@@ -95,9 +93,9 @@ bool near_early(vec3 now, float length, float thickness) {
     EACH_EARLY(NEAR, kind_box, spheres_end, boxes_end)
     EACH_EARLY(NEAR, kind_ellipsoid, boxes_end, ellipsoids_end)
     EACH_EARLY(NEAR, kind_capsule, ellipsoids_end, capsules_end)
-#ifdef MESHES
-    EACH_EARLY(NEAR, kind_mesh, capsules_end, meshes_end)
-#endif
+    if (has_meshes) {
+        EACH_EARLY(NEAR, kind_mesh, capsules_end, meshes_end)
+    }
     return near;
 }
 
@@ -125,10 +123,8 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     if (ellipsoids_end < capsules_end) {
         CONTACTS(kind_capsule, ellipsoids_end, capsules_end)
     }
-#ifdef MESHES
-    if (capsules_end < meshes_end) {
+    if (has_meshes) {
         CONTACTS(kind_mesh, capsules_end, meshes_end)
     }
-#endif
     return Contact(displacement, deepest, normal, grip, led);
 }

@@ -17,13 +17,13 @@ vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
     float lines = grid_lines(place * cells, max(abs(plane.eye.y * cells / down) * change, vec2(1e-6)));
     float away = distance(vec3(place.x, 0.0, place.y), plane.fade.xyz) / plane.fade.w;
     float lit = 1.0;
-#ifdef SHADOWED
-    vec3 there = vec3(place, 1.0);
-    vec2 texel = vec2(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there));
-    // Towards the horizon the texel is beyond what an integer holds.
-    texel = clamp(texel, vec2(-8.0), vec2(shadow_map_size + 8));
-    lit = light_arriving(vec3(texel, dot(plane.shadow[2].xyz, there)), vec2(plane.steady.w, plane.first.w));
-#endif
+    if (shadowed) {
+        vec3 there = vec3(place, 1.0);
+        vec2 texel = vec2(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there));
+        // Towards the horizon the texel is beyond what an integer holds.
+        texel = clamp(texel, vec2(-8.0), vec2(shadow_map_size + 8));
+        lit = light_arriving(vec3(texel, dot(plane.shadow[2].xyz, there)), vec2(plane.steady.w, plane.first.w));
+    }
     vec3 radiance = lined(plane.steady.xyz + lit * plane.first.xyz, lines);
     return seen ? mix(radiance, behind, faded(away)) : behind;
 }

@@ -1,38 +1,39 @@
-// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. TENSION stores
-// that of the stretch springs, from zero on. CARRIED stores that of all springs, from where the iteration before left
-// it, in other images than it reads: the part that strips or tiles have in common each of them reads.
-#if defined(TENSION) || defined(CARRIED)
-SCALAR_OUT(4, TensionRowOut, tension_row_out);
-SCALAR_OUT(5, TensionColumnOut, tension_column_out);
-#define STORE_TENSION_ROW(owner, value) STORE_SCALAR(tension_row_out, owner, value)
-#define STORE_TENSION_COLUMN(owner, value) STORE_SCALAR(tension_column_out, owner, value)
-#else
-#define STORE_TENSION_ROW(owner, value)
-#define STORE_TENSION_COLUMN(owner, value)
-#endif
-
-#ifdef CARRIED
+// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. Where
+// `stores_stretch_tension`, that of the stretch springs is stored, from zero on; where `carries_tension`, that of all
+// springs, from where the iteration before left it, in other images than it is read from: the part that strips or tiles
+// have in common each of them reads.
 layout(constant_id = 2) const bool first_iteration = true;
-SCALAR_OUT(6, TensionDownRightOut, tension_shear_down_right_out);
-SCALAR_OUT(7, TensionDownLeftOut, tension_shear_down_left_out);
+layout(constant_id = 24) const bool stores_stretch_tension = false;
+layout(constant_id = 25) const bool carries_tension = false;
+const bool stores_tension = stores_stretch_tension || carries_tension;
+SCALAR_OUT(4, tension_row_out);
+SCALAR_OUT(5, tension_column_out);
+SCALAR_OUT(6, tension_shear_down_right_out);
+SCALAR_OUT(7, tension_shear_down_left_out);
 layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_row_in;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column_in;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right_in;
 layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left_in;
+
 /// Clamps to the grid: rows that a strip or tile lacks have no spring.
 ivec2 tension_place(ivec2 owner) { return max(min(owner, push.grid - 1), ivec2(0)); }
-#define CARRIED_TENSION(name, owner) (first_iteration ? 0.0f : LOAD(name, tension_place(owner)).x)
-#define TENSION_ROW(owner) CARRIED_TENSION(tension_row_in, owner)
-#define TENSION_COLUMN(owner) CARRIED_TENSION(tension_column_in, owner)
-#define TENSION_DOWN_RIGHT(owner) CARRIED_TENSION(tension_shear_down_right_in, owner)
-#define TENSION_DOWN_LEFT(owner) CARRIED_TENSION(tension_shear_down_left_in, owner)
-#define STORE_TENSION_DOWN_RIGHT(owner, value) STORE_SCALAR(tension_shear_down_right_out, owner, value)
-#define STORE_TENSION_DOWN_LEFT(owner, value) STORE_SCALAR(tension_shear_down_left_out, owner, value)
-#else
-#define TENSION_ROW(owner) 0.0f
-#define TENSION_COLUMN(owner) 0.0f
-#define TENSION_DOWN_RIGHT(owner) 0.0f
-#define TENSION_DOWN_LEFT(owner) 0.0f
-#define STORE_TENSION_DOWN_RIGHT(owner, value)
-#define STORE_TENSION_DOWN_LEFT(owner, value)
-#endif
+
+/// Returns the tension from which a spring starts.
+float tension_at(ivec2 owner, const int channel) {
+    if (!carries_tension) return 0.0f;
+    if (first_iteration) return 0.0f;
+    ivec2 place = tension_place(owner);
+    if (channel == 0) return LOAD(tension_row_in, place).x;
+    if (channel == 1) return LOAD(tension_column_in, place).x;
+    if (channel == 2) return LOAD(tension_shear_down_right_in, place).x;
+    return LOAD(tension_shear_down_left_in, place).x;
+}
+
+void store_tension_at(ivec2 owner, const int channel, float tension) {
+    if (!stores_tension) return;
+    if (channel == 0) STORE_SCALAR(tension_row_out, owner, tension);
+    if (channel == 1) STORE_SCALAR(tension_column_out, owner, tension);
+    if (!carries_tension) return;
+    if (channel == 2) STORE_SCALAR(tension_shear_down_right_out, owner, tension);
+    if (channel == 3) STORE_SCALAR(tension_shear_down_left_out, owner, tension);
+}

@@ -1,11 +1,7 @@
 // Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
-// `displacement_in`, `tension_in`, `line_control` and, where MASKED, `spring_shares`, the push constants (LinePush) and
+// `displacement_in`, `tension_in`, `line_control` and, where `masked`, `spring_shares`, the push constants (LinePush) and
 // `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
-#ifdef BENT
 #include "include/bend_target.h"
-#else
-#include "include/rest_length.h"
-#endif
 
 /// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in
 /// each of its rounds. For the same reason only stores in the loops below branch.
@@ -35,11 +31,8 @@ Line read_line(int index) {
 }
 
 float share_of(Line line, ivec2 first) {
-#ifdef MASKED
-    float share = LOAD(spring_shares, first)[line.channel];
-#else
     float share = line.share;
-#endif
+    if (masked) share = LOAD(spring_shares, first)[line.channel];
     return first.x == line.seam ? 0.0f : share;
 }
 

@@ -1,7 +1,7 @@
 // A particle and the six around it that share triangles with it. Passes load them once each, not once for each
 // triangle, and write their loops out, since arrays that no loop indexes are values on every device (docs/devices.md).
 // [[unroll]] would not do: code that spirv-opt unrolls is not precise any more. The includer has `push`, and where
-// MASKED its image of `cells`.
+// `masked` its image of `cells`.
 #include "include/triangles.h"
 
 const int neighbourhood_count = 7;
@@ -32,11 +32,8 @@ ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) {
 bool triangle_exists(ivec2 particle, ivec4 around) {
     ivec2 cell = particle + around.xy;
     if (!cell_inside(cell, push.grid)) return false;
-#ifdef MASKED
-    return (imageLoad(cells, placed_cell(cell)).x & uint(around.z)) != 0u;
-#else
+    if (masked) return (imageLoad(cells, placed_cell(cell)).x & uint(around.z)) != 0u;
     return true;
-#endif
 }
 
 /// Calls `add(k)` for every triangle around a particle, in the order of all sums over them.

@@ -1,5 +1,5 @@
 // Sweeps over boxes around lone pins, a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
-// pin that has let go is left alone. MASKED is that of line.comp; SHEARED: there are diagonal springs. The includer
+// pin that has let go is left alone. `masked` is that of line.comp; where `sheared`, there are diagonal springs. The includer
 // defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
 CLOTH_CONSTANTS(NestedPush)
@@ -7,21 +7,19 @@ CLOTH_CONSTANTS(NestedPush)
 #include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform coherent readonly image2D displacement_in;
-coherent TRIPLE_OUT(2, DisplacementOut, displacement_out);
+COHERENT_TRIPLE_OUT(2, displacement_out);
 layout(set = 0, binding = 3, std430) readonly buffer NestedBoxes { ivec4 nested_boxes[]; };
 layout(set = 0, binding = 6, r32f) uniform coherent readonly image2D tension_row_in;
-coherent SCALAR_OUT(7, TensionRowOut, tension_row_out);
+COHERENT_SCALAR_OUT(7, tension_row_out);
 layout(set = 0, binding = 8, r32f) uniform coherent readonly image2D tension_column_in;
-coherent SCALAR_OUT(9, TensionColumnOut, tension_column_out);
-#ifdef SHEARED
+COHERENT_SCALAR_OUT(9, tension_column_out);
+layout(constant_id = 24) const bool sheared = false;
 layout(set = 0, binding = 10, r32f) uniform coherent readonly image2D tension_shear_down_right_in;
-coherent SCALAR_OUT(11, TensionDownRightOut, tension_shear_down_right_out);
+COHERENT_SCALAR_OUT(11, tension_shear_down_right_out);
 layout(set = 0, binding = 12, r32f) uniform coherent readonly image2D tension_shear_down_left_in;
-coherent SCALAR_OUT(13, TensionDownLeftOut, tension_shear_down_left_out);
-#endif
-#ifdef MASKED
+COHERENT_SCALAR_OUT(13, tension_shear_down_left_out);
+layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 14, rgba32f) uniform readonly image2D spring_shares;
-#endif
 layout(set = 0, binding = 15, r32ui) uniform readonly uimage2D line_control;
 #include "include/rest_length.h"
 
@@ -45,28 +43,23 @@ float load_tension(int direction, ivec2 at) {
     float tension = 0.0f;
     if (direction == 0) tension = LOAD(tension_row_in, at).x;
     if (direction == 1) tension = LOAD(tension_column_in, at).x;
-#ifdef SHEARED
+    if (!sheared) return tension;
     if (direction == 2) tension = LOAD(tension_shear_down_right_in, at).x;
     if (direction == 3) tension = LOAD(tension_shear_down_left_in, at).x;
-#endif
     return tension;
 }
 
 void store_tension(int direction, ivec2 at, float tension) {
     if (direction == 0) STORE_SCALAR(tension_row_out, at, tension);
     if (direction == 1) STORE_SCALAR(tension_column_out, at, tension);
-#ifdef SHEARED
+    if (!sheared) return;
     if (direction == 2) STORE_SCALAR(tension_shear_down_right_out, at, tension);
     if (direction == 3) STORE_SCALAR(tension_shear_down_left_out, at, tension);
-#endif
 }
 
 float share_of(NestedLine line, NestedParticle first) {
-#ifdef MASKED
-    float share = LOAD(spring_shares, first.at)[line.direction];
-#else
     float share = line.share;
-#endif
+    if (masked) share = LOAD(spring_shares, first.at)[line.direction];
     return first.in_box.x == line.seam ? 0.0f : share;
 }
 

@@ -1,4 +1,4 @@
-// Sums the lights of a frame over a surface; with SHADOWED the first one through its shadow map. Loops are written out:
+// Sums the lights of a frame over a surface; where `shadowed`, the first one through its shadow map. Loops are written out:
 // the default device's compiler unrolls none, and every round costs (docs/devices.md).
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
@@ -10,11 +10,12 @@ layout(constant_id = 3) const bool constants_by_triangle = true;
 layout(location = lit_location) flat in LitConstants triangle_constants;
 LitConstants constants = constants_by_triangle ? triangle_constants : lit_constants();
 
-#ifdef SHADOWED
+layout(constant_id = 25) const bool shadowed = false;
 #include "include/shadow_map.h"
 
 /// Share of the first light that reaches a point, which is moved off the surface by a texel.
 float visibility(vec3 world, vec3 normal) {
+    if (!shadowed) return 1.0;
     vec3 to_light = constants.to_light[0].xyz;
     float texel_size = constants.ambient.w;
     float facing = dot(normal, to_light);
@@ -24,9 +25,6 @@ float visibility(vec3 world, vec3 normal) {
                                     dot(off_surface, constants.shadow_from_world[1].xyz));
     return light_arriving(at, across / (max(abs(facing), 0.25) * shadow_texels_per_depth));
 }
-#else
-float visibility(vec3 world, vec3 normal) { return 1.0; }
-#endif
 
 vec3 lit_by(int light, Surface surface) {
     return light_radiance(surface, constants.to_light[light].xyz, constants.light_radiance[light].xyz);

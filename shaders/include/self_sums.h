@@ -1,35 +1,35 @@
-// Sums of impulses by place (include/self_impulse.h). WIDE: an atomic of 64 bits takes both parts of a component. The
-// includer has SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
+// Sums of impulses by place (include/self_impulse.h). Where `wide`, an atomic of 64 bits takes both parts of a component,
+// which halves the atomics. The // includer has SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
+layout(constant_id = 25) const bool wide = false;
+
 #ifdef SUMS_SLOT
 /// The first of the two vectors of a place's sum.
 int sum_at(int which, int place) { return 2 * (which * push.grid.x * push.grid.y + place); }
-#ifdef WIDE
-layout(set = 0, binding = SUMS_SLOT, std430) buffer SumsOut { u64vec2 sums_out[]; };
+layout(set = 0, binding = SUMS_SLOT, std430) buffer WideSums { u64vec2 sums_out[]; } wide_sums;
+layout(set = 0, binding = SUMS_SLOT, std430) buffer Sums { uvec4 sums_out[]; } sums;
 uint64_t whole(ivec2 parts) { return uint64_t(int64_t(parts.x) + int64_t(parts.y) * 1048576l); }
 void add_parts(int which, uint corner, SelfParts parts) {
     int at = sum_at(which, place_of(self_texel(corner)));
-    atomicAdd(sums_out[at].x, whole(parts.x));
-    atomicAdd(sums_out[at].y, whole(parts.y));
-    atomicAdd(sums_out[at + 1].x, whole(parts.z));
+    if (wide) {
+        atomicAdd(wide_sums.sums_out[at].x, whole(parts.x));
+        atomicAdd(wide_sums.sums_out[at].y, whole(parts.y));
+        atomicAdd(wide_sums.sums_out[at + 1].x, whole(parts.z));
+        return;
+    }
+    atomicAdd(sums.sums_out[at].x, uint(parts.x.x));
+    atomicAdd(sums.sums_out[at].y, uint(parts.x.y));
+    atomicAdd(sums.sums_out[at].z, uint(parts.y.x));
+    atomicAdd(sums.sums_out[at].w, uint(parts.y.y));
+    atomicAdd(sums.sums_out[at + 1].x, uint(parts.z.x));
+    atomicAdd(sums.sums_out[at + 1].y, uint(parts.z.y));
 }
 void add_weight(uint corner, uint weight) {
-    atomicAdd(sums_out[sum_at(0, place_of(self_texel(corner))) + 1].y, uint64_t(weight));
+    int at = sum_at(0, place_of(self_texel(corner))) + 1;
+    if (wide)
+        atomicAdd(wide_sums.sums_out[at].y, uint64_t(weight));
+    else
+        atomicAdd(sums.sums_out[at].z, weight);
 }
-#else
-layout(set = 0, binding = SUMS_SLOT, std430) buffer SumsOut { uvec4 sums_out[]; };
-void add_parts(int which, uint corner, SelfParts parts) {
-    int at = sum_at(which, place_of(self_texel(corner)));
-    atomicAdd(sums_out[at].x, uint(parts.x.x));
-    atomicAdd(sums_out[at].y, uint(parts.x.y));
-    atomicAdd(sums_out[at].z, uint(parts.y.x));
-    atomicAdd(sums_out[at].w, uint(parts.y.y));
-    atomicAdd(sums_out[at + 1].x, uint(parts.z.x));
-    atomicAdd(sums_out[at + 1].y, uint(parts.z.y));
-}
-void add_weight(uint corner, uint weight) {
-    atomicAdd(sums_out[sum_at(0, place_of(self_texel(corner))) + 1].z, weight);
-}
-#endif
 
 /// Adds what a contact gives each corner to a sum. `largest`: its scene's largest thickness.
 void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impulse, float largest) {
@@ -49,11 +49,8 @@ SelfSum sum_of(int which, int place) {
 }
 
 float sum_value(uint first, uint second) {
-#ifdef WIDE
-    return self_number(uvec2(first, second));
-#else
+    if (wide) return self_number(uvec2(first, second));
     return self_number(self_words(first, second));
-#endif
 }
 
 /// Returns an impulse, in masses of the first cloth's particle times m. `largest`: its scene's largest thickness.

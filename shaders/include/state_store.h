@@ -1,40 +1,56 @@
-// Passes write the images of a cloth's state by these macros, where BUFFERED through their buffer views, storage
+// Passes write the images of a cloth's state by these macros, where `buffered` through their buffer views, storage
 // buffers of the same memory; on the default device image stores take longer (docs/devices.md). Loads go through the
 // images either way. VECTOR_KEPT declares an image whose texels are not all written; TRIPLE_OUT and STORE_TRIPLE one
-// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. The includer has
-// `push.grid`. STORE_IN_COLUMNS and LOAD_IN_COLUMNS are for images of other columns, as the sheet of contact; the
-// latter loads what VECTOR_KEPT declared.
+// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. Those of COHERENT_... are
+// read again by other invocations of the pass. The includer has `push.grid`. STORE_IN_COLUMNS and LOAD_IN_COLUMNS are
+// for images of other columns, as the sheet of contact; the latter loads what VECTOR_KEPT declared.
 #include "include/together.h"
-#ifdef BUFFERED
+
+layout(constant_id = 27) const bool buffered = false;
+
 /// Texels from one row of a buffer view to the next; rows begin at multiples of state_row_alignment bytes.
 int vector_pitch(int columns) { return (columns + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
 int vector_pitch() { return vector_pitch(push.grid.x); }
 int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
-#define VECTOR_OUT(slot, block, name) \
-    layout(set = 0, binding = slot, std430) writeonly buffer block { vec4 name[]; }
+
 struct StateTriple {
     vec3 xyz;
     float beside;
 };
-#define TRIPLE_OUT(slot, block, name) \
-    layout(set = 0, binding = slot, std430) writeonly buffer block { StateTriple name[]; }
-#define SCALAR_OUT(slot, block, name) \
-    layout(set = 0, binding = slot, std430) writeonly buffer block { float name[]; }
-#define VECTOR_KEPT(slot, block, name) \
-    layout(set = 0, binding = slot, std430) buffer block { vec4 name[]; }
-#define LOAD_IN_COLUMNS(name, texel, columns) name[(texel).y * vector_pitch(columns) + (texel).x]
-#define STORE_VECTOR(name, texel, value) name[placed(texel).y * vector_pitch() + (texel).x] = value
-#define STORE_IN_COLUMNS(name, texel, columns, value) name[(texel).y * vector_pitch(columns) + (texel).x] = value
-#define STORE_TRIPLE(name, texel, value, beside) name[placed(texel).y * vector_pitch() + (texel).x].xyz = value
-#define STORE_SCALAR(name, texel, value) name[placed(texel).y * scalar_pitch() + (texel).x] = value
-#else
-#define VECTOR_OUT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform writeonly image2D name
-#define TRIPLE_OUT VECTOR_OUT
-#define SCALAR_OUT(slot, block, name) layout(set = 0, binding = slot, r32f) uniform writeonly image2D name
-#define VECTOR_KEPT(slot, block, name) layout(set = 0, binding = slot, rgba32f) uniform image2D name
-#define LOAD_IN_COLUMNS(name, texel, columns) imageLoad(name, texel)
-#define STORE_VECTOR(name, texel, value) imageStore(name, placed(texel), value)
-#define STORE_IN_COLUMNS(name, texel, columns, value) imageStore(name, texel, value)
-#define STORE_TRIPLE(name, texel, value, beside) imageStore(name, placed(texel), vec4(value, beside))
-#define STORE_SCALAR(name, texel, value) imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f))
-#endif
+
+// An image and its view have one binding and one name; a pipeline has only one of them.
+#define VIEW(access, slot, type, name, view) \
+    layout(set = 0, binding = slot, std430) access buffer name##_##view##_block { type name[]; } name##_##view
+#define IMAGE(access, slot, format, name) layout(set = 0, binding = slot, format) uniform access image2D name
+#define VECTOR_OF(access, slot, name)     \
+    IMAGE(access, slot, rgba32f, name);   \
+    VIEW(access, slot, vec4, name, vectors)
+#define TRIPLE_OF(access, slot, name)   \
+    IMAGE(access, slot, rgba32f, name); \
+    VIEW(access, slot, StateTriple, name, triples)
+#define SCALAR_OF(access, slot, name) \
+    IMAGE(access, slot, r32f, name);  \
+    VIEW(access, slot, float, name, scalars)
+#define VECTOR_OUT(slot, name) VECTOR_OF(writeonly, slot, name)
+#define VECTOR_KEPT(slot, name) VECTOR_OF(, slot, name)
+#define TRIPLE_OUT(slot, name) TRIPLE_OF(writeonly, slot, name)
+#define SCALAR_OUT(slot, name) SCALAR_OF(writeonly, slot, name)
+#define COHERENT_TRIPLE_OUT(slot, name) TRIPLE_OF(coherent writeonly, slot, name)
+#define COHERENT_SCALAR_OUT(slot, name) SCALAR_OF(coherent writeonly, slot, name)
+
+#define STORE_BY(view_store, image_store) { if (buffered) view_store; else image_store; }
+#define STORE_VECTOR(name, texel, value)                                                    \
+    STORE_BY(name##_vectors.name[placed(texel).y * vector_pitch() + (texel).x] = value,     \
+             imageStore(name, placed(texel), value))
+#define STORE_TRIPLE(name, texel, value, beside)                                            \
+    STORE_BY(name##_triples.name[placed(texel).y * vector_pitch() + (texel).x].xyz = value, \
+             imageStore(name, placed(texel), vec4(value, beside)))
+#define STORE_SCALAR(name, texel, value)                                                    \
+    STORE_BY(name##_scalars.name[placed(texel).y * scalar_pitch() + (texel).x] = value,     \
+             imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f)))
+#define STORE_IN_COLUMNS(name, texel, columns, value)                                       \
+    STORE_BY(name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x] = value,    \
+             imageStore(name, texel, value))
+#define LOAD_IN_COLUMNS(result, name, texel, columns)                                       \
+    STORE_BY(result = name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x],   \
+             result = imageLoad(name, texel))

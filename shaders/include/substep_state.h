@@ -1,27 +1,27 @@
 // The passes that carry a cloth's state from substep to substep share its images and the compensated sums that move
-// position and displacement on. WIND: the wind's force is one of the images. IN_PLACE: a pass writes the images that it
-// reads, but for the displacement of some predictions. The includer has verlet.h and `push.grid`.
+// position and displacement on. Where `windy`, the wind's force is one of the images. The includer has verlet.h, `push.grid`
+// and `in_place`: whether the pass writes the images that it reads, but for the displacement of some predictions.
 #include "include/state_store.h"
-#ifdef IN_PLACE
-#define STATE_OUT TRIPLE_OUT
-#define STORE_STATE STORE_TRIPLE
-#else
-#define STATE_OUT VECTOR_OUT
-#define STORE_STATE(name, texel, value, beside) STORE_VECTOR(name, texel, vec4(value, beside))
-#endif
+#define STATE_OUT(slot, name) \
+    TRIPLE_OUT(slot, name);   \
+    VIEW(writeonly, slot, vec4, name, vectors)
+#define STORE_STATE(name, texel, value, beside)                                   \
+    {                                                                             \
+        if (in_place) STORE_TRIPLE(name, texel, value, beside)                    \
+        else STORE_VECTOR(name, texel, vec4(value, beside))                       \
+    }
 
 layout(local_size_x = workgroup_width) in;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-STATE_OUT(1, PositionOut, position_out);
+STATE_OUT(1, position_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_in;
-VECTOR_OUT(3, DisplacementOut, displacement_out);
+VECTOR_OUT(3, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
-STATE_OUT(5, PositionRemainderOut, position_remainder_out);
+STATE_OUT(5, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-STATE_OUT(7, DisplacementRemainderOut, displacement_remainder_out);
-#ifdef WIND
+STATE_OUT(7, displacement_remainder_out);
+layout(constant_id = 23) const bool windy = false;
 layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
-#endif
 
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, LOAD(position_remainder_in, texel).xyz);
@@ -40,9 +40,6 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
 
 /// Force on the particle of a texel, N; w: its drag, N/m.
 vec4 force_on(ivec2 texel) {
-#ifdef WIND
-    return LOAD(wind_force, texel);
-#else
+    if (windy) return LOAD(wind_force, texel);
     return vec4(0.0f, 0.0f, 0.0f, 0.0f);
-#endif
 }

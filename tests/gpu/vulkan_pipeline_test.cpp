@@ -187,7 +187,7 @@ TEST(VulkanComputePipeline, has_its_descriptors_sorted_and_its_push_constants) {
     EXPECT_EQ(run_scale(pipeline, {3}, 1), (std::vector<float>{1004})) << "the shader's own defaults";
 }
 
-TEST(VulkanComputePipeline, has_no_descriptor_of_a_buffer_that_a_constant_leaves_out) {
+TEST(VulkanComputePipeline, has_no_descriptor_of_what_its_constants_leave_out) {
     const auto names = [](const ComputePipeline& pipeline) {
         std::vector<std::string> all;
         for (const vulkan::ReflectedDescriptor& each : pipeline.descriptors()) all.push_back(each.name);
@@ -197,13 +197,9 @@ TEST(VulkanComputePipeline, has_no_descriptor_of_a_buffer_that_a_constant_leaves
     const std::vector<SpecializationConstant> used{{"has_constants", 1}, {"has_present", 1}},
         idle{{"has_constants", 0}};
     for (const ComputePipeline* each :
-         {&device.compute_pipeline("bend.comp"), &device.compute_pipeline("bend.comp", idle)}) {
+         {&device.compute_pipeline("bend.comp"), &device.compute_pipeline("bend.comp", idle)})
         EXPECT_THAT(names(*each), testing::ElementsAre("position", "displacement_in", "displacement_out"));
-        EXPECT_THAT(each->idle_bindings(), testing::SizeIs(2));
-    }
-    const ComputePipeline& with = device.compute_pipeline("bend.comp", used);
-    EXPECT_THAT(names(with), testing::IsSupersetOf({"constants", "present"}));
-    EXPECT_THAT(with.idle_bindings(), testing::IsEmpty());
+    EXPECT_THAT(names(device.compute_pipeline("bend.comp", used)), testing::IsSupersetOf({"constants", "present"}));
 }
 
 TEST(VulkanComputePipeline, refuses_a_constant_that_the_shader_lacks) {

@@ -145,7 +145,7 @@ TEST(VulkanReflection, reads_constants_by_name_and_the_workgroups_size) {
 TEST(VulkanReflection, counts_locations_from_vertices_to_fragments) {
     EXPECT_EQ(vulkan::reflect(test_shader("varyings.vert"), "varyings.vert").varying_locations, 69u);
     EXPECT_EQ(vulkan::reflect(test_shader("triangle.vert"), "triangle.vert").varying_locations, 0u);
-    const ReflectedModule cloth = vulkan::reflect(vulkan::spirv_module("cloth_shadowed.frag"), "cloth_shadowed.frag");
+    const ReflectedModule cloth = vulkan::reflect(vulkan::spirv_module("cloth.frag"), "cloth.frag");
     EXPECT_EQ(cloth.varying_locations, 13u + 2 * glsl::light_limit);
     EXPECT_EQ(interface_module().varying_locations, 0u);
 }
@@ -235,11 +235,6 @@ TEST(VulkanReflection, committed_modules_are_found_by_name) {
     } catch (const VulkanError& error) {
         EXPECT_THAT(error.what(), HasSubstr("\"canry.comp\""));
     }
-}
-
-TEST(VulkanReflection, variants_are_named_in_order) {
-    EXPECT_EQ(vulkan::variant_name("line.comp", {{"bent", false}, {"masked", false}}), "line.comp");
-    EXPECT_EQ(vulkan::variant_name("line.comp", {{"masked", true}, {"tension", true}}), "line_masked_tension.comp");
 }
 
 }  // namespace drape::test
