@@ -76,8 +76,8 @@ std::string push_constant_difference(const std::optional<ReflectedStruct>& shade
 /// Returns the SPIR-V of a shader ("spring.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
-/// Returns what the module of that name says of itself, whatever its constants are; it is read once. Throws as `reflect` and
-/// `spirv_module` do.
+/// Returns what the module of that name says of itself, whatever its constants are; it is read once. Throws as
+/// `reflect` and `spirv_module` do.
 const ReflectedModule& module_interface(const std::string& name);
 
 }  // namespace drape::vulkan

@@ -179,8 +179,7 @@ SHARED float shared_compliance(float compliance, float share) {
 
 #ifndef __cplusplus
 /// The compliance alpha/s of a spring is divided only where each may have another share.
-#define SPRING_COMPLIANCE(line, share) \
-    (masked ? shared_compliance((line).compliance, share) : (line).shared_compliance)
+#define SPRING_COMPLIANCE(line, share) (masked ? shared_compliance((line).compliance, share) : (line).shared_compliance)
 #endif
 
 /// Tension (m) of a spring whose multiplier changed; 0 where there is none. `compliance`: alpha/s.

@@ -1,6 +1,6 @@
 // Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
-// `displacement_in`, `tension_in`, `line_control` and, where `masked`, `spring_shares`, the push constants (LinePush) and
-// `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
+// `displacement_in`, `tension_in`, `line_control` and, where `masked`, `spring_shares`, the push constants (LinePush)
+// and `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
 #include "include/bend_target.h"
 
 /// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in

@@ -1,6 +1,6 @@
 // Sweeps over boxes around lone pins, a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
-// pin that has let go is left alone. `masked` is that of line.comp; where `sheared`, there are diagonal springs. The includer
-// defines how the lines of a direction are solved (sweep_direction).
+// pin that has let go is left alone. `masked` is that of line.comp; where `sheared`, there are diagonal springs. The
+// includer defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
 CLOTH_CONSTANTS(NestedPush)
 #define TOGETHER

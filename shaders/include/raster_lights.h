@@ -1,5 +1,5 @@
-// Sums the lights of a frame over a surface; where `shadowed`, the first one through its shadow map. Loops are written out:
-// the default device's compiler unrolls none, and every round costs (docs/devices.md).
+// Sums the lights of a frame over a surface; where `shadowed`, the first one through its shadow map. Loops are written
+// out: the default device's compiler unrolls none, and every round costs (docs/devices.md).
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
 

@@ -1,12 +1,15 @@
-// Sums of impulses by place (include/self_impulse.h). Where `wide`, an atomic of 64 bits takes both parts of a component,
-// which halves the atomics. The // includer has SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
+// Sums of impulses by place (include/self_impulse.h). Where `wide`, an atomic of 64 bits takes both parts of a
+// component, which halves the atomics. The // includer has SUMS_SLOT, the binding, and where it reads sums
+// SUMS_IN_SLOT.
 layout(constant_id = 25) const bool wide = false;
 
 #ifdef SUMS_SLOT
 /// The first of the two vectors of a place's sum.
 int sum_at(int which, int place) { return 2 * (which * push.grid.x * push.grid.y + place); }
-layout(set = 0, binding = SUMS_SLOT, std430) buffer WideSums { u64vec2 sums_out[]; } wide_sums;
-layout(set = 0, binding = SUMS_SLOT, std430) buffer Sums { uvec4 sums_out[]; } sums;
+layout(set = 0, binding = SUMS_SLOT, std430) buffer WideSums { u64vec2 sums_out[]; }
+wide_sums;
+layout(set = 0, binding = SUMS_SLOT, std430) buffer Sums { uvec4 sums_out[]; }
+sums;
 uint64_t whole(ivec2 parts) { return uint64_t(int64_t(parts.x) + int64_t(parts.y) * 1048576l); }
 void add_parts(int which, uint corner, SelfParts parts) {
     int at = sum_at(which, place_of(self_texel(corner)));

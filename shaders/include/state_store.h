@@ -1,9 +1,9 @@
 // Passes write the images of a cloth's state by these macros, where `buffered` through their buffer views, storage
 // buffers of the same memory; on the default device image stores take longer (docs/devices.md). Loads go through the
 // images either way. VECTOR_KEPT declares an image whose texels are not all written; TRIPLE_OUT and STORE_TRIPLE one
-// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. Those of COHERENT_... are
-// read again by other invocations of the pass. The includer has `push.grid`. STORE_IN_COLUMNS and LOAD_IN_COLUMNS are
-// for images of other columns, as the sheet of contact; the latter loads what VECTOR_KEPT declared.
+// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. Those of COHERENT_...
+// are read again by other invocations of the pass. The includer has `push.grid`. STORE_IN_COLUMNS and LOAD_IN_COLUMNS
+// are for images of other columns, as the sheet of contact; the latter loads what VECTOR_KEPT declared.
 #include "include/together.h"
 
 layout(constant_id = 27) const bool buffered = false;
@@ -19,11 +19,12 @@ struct StateTriple {
 };
 
 // An image and its view have one binding and one name; a pipeline has only one of them.
-#define VIEW(access, slot, type, name, view) \
-    layout(set = 0, binding = slot, std430) access buffer name##_##view##_block { type name[]; } name##_##view
+#define VIEW(access, slot, type, name, view)                                                     \
+    layout(set = 0, binding = slot, std430) access buffer name##_##view##_block { type name[]; } \
+    name##_##view
 #define IMAGE(access, slot, format, name) layout(set = 0, binding = slot, format) uniform access image2D name
-#define VECTOR_OF(access, slot, name)     \
-    IMAGE(access, slot, rgba32f, name);   \
+#define VECTOR_OF(access, slot, name)   \
+    IMAGE(access, slot, rgba32f, name); \
     VIEW(access, slot, vec4, name, vectors)
 #define TRIPLE_OF(access, slot, name)   \
     IMAGE(access, slot, rgba32f, name); \
@@ -38,19 +39,24 @@ struct StateTriple {
 #define COHERENT_TRIPLE_OUT(slot, name) TRIPLE_OF(coherent writeonly, slot, name)
 #define COHERENT_SCALAR_OUT(slot, name) SCALAR_OF(coherent writeonly, slot, name)
 
-#define STORE_BY(view_store, image_store) { if (buffered) view_store; else image_store; }
-#define STORE_VECTOR(name, texel, value)                                                    \
-    STORE_BY(name##_vectors.name[placed(texel).y * vector_pitch() + (texel).x] = value,     \
+#define STORE_BY(view_store, image_store) \
+    {                                     \
+        if (buffered)                     \
+            view_store;                   \
+        else                              \
+            image_store;                  \
+    }
+#define STORE_VECTOR(name, texel, value)                                                \
+    STORE_BY(name##_vectors.name[placed(texel).y * vector_pitch() + (texel).x] = value, \
              imageStore(name, placed(texel), value))
 #define STORE_TRIPLE(name, texel, value, beside)                                            \
     STORE_BY(name##_triples.name[placed(texel).y * vector_pitch() + (texel).x].xyz = value, \
              imageStore(name, placed(texel), vec4(value, beside)))
-#define STORE_SCALAR(name, texel, value)                                                    \
-    STORE_BY(name##_scalars.name[placed(texel).y * scalar_pitch() + (texel).x] = value,     \
+#define STORE_SCALAR(name, texel, value)                                                \
+    STORE_BY(name##_scalars.name[placed(texel).y * scalar_pitch() + (texel).x] = value, \
              imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f)))
-#define STORE_IN_COLUMNS(name, texel, columns, value)                                       \
-    STORE_BY(name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x] = value,    \
-             imageStore(name, texel, value))
-#define LOAD_IN_COLUMNS(result, name, texel, columns)                                       \
-    STORE_BY(result = name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x],   \
+#define STORE_IN_COLUMNS(name, texel, columns, value) \
+    STORE_BY(name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x] = value, imageStore(name, texel, value))
+#define LOAD_IN_COLUMNS(result, name, texel, columns)                                     \
+    STORE_BY(result = name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x], \
              result = imageLoad(name, texel))

@@ -1,14 +1,17 @@
 // The passes that carry a cloth's state from substep to substep share its images and the compensated sums that move
-// position and displacement on. Where `windy`, the wind's force is one of the images. The includer has verlet.h, `push.grid`
-// and `in_place`: whether the pass writes the images that it reads, but for the displacement of some predictions.
+// position and displacement on. Where `windy`, the wind's force is one of the images. The includer has verlet.h,
+// `push.grid` and `in_place`: whether the pass writes the images that it reads, but for the displacement of some
+// predictions.
 #include "include/state_store.h"
 #define STATE_OUT(slot, name) \
     TRIPLE_OUT(slot, name);   \
     VIEW(writeonly, slot, vec4, name, vectors)
-#define STORE_STATE(name, texel, value, beside)                                   \
-    {                                                                             \
-        if (in_place) STORE_TRIPLE(name, texel, value, beside)                    \
-        else STORE_VECTOR(name, texel, vec4(value, beside))                       \
+#define STORE_STATE(name, texel, value, beside)            \
+    {                                                      \
+        if (in_place)                                      \
+            STORE_TRIPLE(name, texel, value, beside)       \
+        else                                               \
+            STORE_VECTOR(name, texel, vec4(value, beside)) \
     }
 
 layout(local_size_x = workgroup_width) in;

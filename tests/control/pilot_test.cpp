@@ -36,12 +36,15 @@ class MadeUpCloth {
         WorkResult result;
         ++works;
         if (work.before) step(*work.before, work, result);
-        if (work.changes_substeps()) EXPECT_EQ(work.history_substeps, at(work.set).substeps) << "frame " << work.frame;
+        if (work.changes_substeps()) {
+            EXPECT_EQ(work.history_substeps, at(work.set).substeps) << "frame " << work.frame;
+        }
         if (work.simulates) {
             State& state = at(work.set);
             EXPECT_EQ(state.frame + 1, work.frame) << "a frame is simulated from the end of the one before";
-            if (!work.changes_substeps() && work.set == StateSet::run && work.before)
+            if (!work.changes_substeps() && work.set == StateSet::run && work.before) {
                 EXPECT_EQ(state.substeps, work.substeps) << "frame " << work.frame;
+            }
             state.frame = work.frame;
             state.substeps = work.substeps;
             state.error += rate_(work.frame) / (frames_per_second * std::pow(work.substeps, 2));

@@ -91,8 +91,8 @@ TEST(FreeFlight, OverdampedClothFollowsTheClosedForm) {
                 scene.solver.method = method;
                 scene.cloths[0].damping = exponent * substeps * scene.time.fps;
                 EXPECT_LE(overdamped_error(scene, {}), 1) << "c h = " << exponent << ", " << substeps << " substeps";
-                if (substeps > 1)
-                    EXPECT_LE(overdamped_error(scene, {3, 0, -7}), 1) << "c h = " << exponent << ", thrown";
+                if (substeps == 1) continue;
+                EXPECT_LE(overdamped_error(scene, {3, 0, -7}), 1) << "c h = " << exponent << ", thrown";
             }
 }
 

@@ -234,9 +234,9 @@ TEST(RestBendTest, StatedEnergyIsKeptByAFreeSheetThatUnbendsOrSwings) {
         double worst = 0, kinetic = 0;
         for (std::uint32_t frame = 1; frame <= 30; ++frame) {
             twin.run_frame(frame);
-            const auto [total, moving] = stated_energy(model, twin, frame);
+            const auto [total, motion] = stated_energy(model, twin, frame);
             worst = std::max(worst, std::abs(total - start));
-            kinetic = std::max(kinetic, moving);
+            kinetic = std::max(kinetic, motion);
         }
         std::printf("[ measured ] energy of %.4f J, of which %.4f J move, errs by %.1e J\n", start, kinetic, worst);
         EXPECT_GT(kinetic, 0.5 * start);
