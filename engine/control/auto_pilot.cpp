@@ -16,6 +16,15 @@ namespace {
 
 std::uint32_t& history_in(Histories& histories, StateSet set) { return histories[static_cast<std::size_t>(set)]; }
 
+/// Returns a step without a frame.
+Work step_alone(std::uint32_t frame, StateStep step) {
+    Work work;
+    work.frame = frame;
+    work.before = step;
+    work.awaited = step == StateStep::compare_companion || step == StateStep::compare_disturbed;
+    return work;
+}
+
 }  // namespace
 
 std::unique_ptr<Pilot> make_pilot(const SimulationModel& model) {
@@ -85,15 +94,9 @@ Work AutoPilot::frame_in(StateSet set, std::uint32_t substeps) {
     return work;
 }
 
-Work AutoPilot::coarse_frame() {
-    Work work = frame_in(StateSet::run, control_.segment().substeps / 2);
-    if (is_last()) work.after = StateStep::remember;
-    return work;
-}
-
-Work AutoPilot::fine_frame() {
-    Work work = frame_in(StateSet::run, control_.segment().substeps);
-    if (is_last() && probes()) work.after = StateStep::compare;
+Work AutoPilot::attempted(std::uint32_t substeps, std::optional<StateStep> at_end) {
+    Work work = frame_in(StateSet::run, substeps);
+    if (is_last()) work.after = at_end;
     return work;
 }
 
@@ -105,14 +108,6 @@ Work AutoPilot::frame_beside(StateSet set) {
     const bool last = is_last();
     ++attempt_.next;
     if (last) follow(set);
-    return work;
-}
-
-Work AutoPilot::step_alone(StateStep step) {
-    Work work;
-    work.frame = kept_.first;
-    work.before = step;
-    work.awaited = step == StateStep::compare_companion || step == StateStep::compare_disturbed;
     return work;
 }
 
@@ -142,9 +137,9 @@ std::optional<Work> AutoPilot::next_work() {
             return Work{.frame = kept_.first, .hands_out = true, .known = std::move(still)};
         }
         case Phase::coarse:
-            return coarse_frame();
+            return attempted(control_.segment().substeps / 2, StateStep::remember);
         case Phase::fine:
-            return fine_frame();
+            return attempted(control_.segment().substeps, probes() ? std::optional(StateStep::compare) : std::nullopt);
         case Phase::hand_out:
             attempt_.phase = Phase::fine;
             return handed_out(kept_.first + attempt_.next++);
@@ -153,20 +148,20 @@ std::optional<Work> AutoPilot::next_work() {
         case Phase::disturbed:
             return frame_beside(StateSet::disturbed);
         case Phase::compare_companion:
-            return step_alone(StateStep::compare_companion);
+            return step_alone(kept_.first, StateStep::compare_companion);
         case Phase::compare_disturbed:
-            return step_alone(StateStep::compare_disturbed);
+            return step_alone(kept_.first, StateStep::compare_disturbed);
         case Phase::disturb:
             history_in(histories_, StateSet::disturbed) = history_in(histories_, StateSet::companion);
             finish();
-            return step_alone(StateStep::disturb);
+            return step_alone(kept_.first, StateStep::disturb);
         case Phase::finish: {
             attempt_.phase = Phase::done;
             return handed_out(simulated_ - 1);
         }
         case Phase::restore:
             attempt_.phase = Phase::done;
-            return step_alone(StateStep::restore);
+            return step_alone(kept_.first, StateStep::restore);
     }
     return std::nullopt;
 }

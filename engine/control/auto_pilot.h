@@ -69,10 +69,9 @@ class AutoPilot : public Pilot {
     bool is_last() const { return attempt_.next + 1 == control_.segment().frame_count; }
     bool probes() const { return control_.segment().probes; }
     Work frame_in(StateSet set, std::uint32_t substeps);
-    Work coarse_frame();
-    Work fine_frame();
+    /// Returns the attempt's next frame, with a step at the end of the segment.
+    Work attempted(std::uint32_t substeps, std::optional<StateStep> at_end);
     Work frame_beside(StateSet set);
-    Work step_alone(StateStep step);
     Work handed_out(std::uint32_t frame) const;
     void begin_attempt();
     void take_coarse(const WorkResult& result);

@@ -4,6 +4,26 @@
 
 namespace drape {
 
+namespace {
+
+/// Notes what the frame leaves out, and why.
+void note_skipped(graph::Graph& graph, const FrameContents& contents, const FrameOptions& options,
+                  const SceneDescription& scene) {
+    if (!contents.cuts)
+        graph.skip("cut search",
+                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
+    if (!contents.tears)
+        graph.skip("tear search",
+                   scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
+    if (!options.draw && !options.draws_beside)
+        graph.skip(options.normals ? "raster and colour readback" : "normals, raster and colour readback",
+                   "no picture is wanted");
+    if (!options.positions) graph.skip("position readback", "no position export is wanted");
+    if (!contents.counts && !options.statistics) graph.skip("statistics", "nobody asked for them");
+}
+
+}  // namespace
+
 FrameGraphs::FrameGraphs(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
                          const FrameOptions& options)
     : device_(device),
@@ -71,8 +91,11 @@ void FrameGraphs::plan_known() {
     for (const FrameContents& contents : known_contents()) planned(contents);
     for (std::size_t set = 0; set < state_set_count; ++set)
         for (const StateStep step : state_steps(*joint_, static_cast<StateSet>(set))) {
-            const SetStep key{static_cast<StateSet>(set), step};
-            steps_[key] = plan(key);
+            PlannedGraph& planned = steps_[{static_cast<StateSet>(set), step}];
+            planned = {};
+            solver_.declare(planned.graph, {}, *joint_, static_cast<StateSet>(set));
+            solver_.add_attempt(planned.graph, step);
+            planned.plan = graph::make_plan(planned.graph);
         }
 }
 
@@ -99,7 +122,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
         solver_.add_forms(graph);
     if (contents.cuts) solver_.add_cuts(graph);
     if (contents.tears) solver_.add_tears(graph);
-    note_skipped(graph, contents);
+    note_skipped(graph, contents, options_, joint_->scene);
     if (contents.hands_out) add_hand_out(graph);
     if (contents.counts) solver_.add_statistics(graph);
     planned.plan = graph::make_plan(graph);
@@ -115,29 +138,6 @@ void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (!options_.velocities) return;
     solver_.add_readback(graph, Field::displacement, "displacement");
     solver_.add_readback(graph, Field::end_excess, "excess displacement");
-}
-
-void FrameGraphs::note_skipped(graph::Graph& graph, const FrameContents& contents) const {
-    const SceneDescription& scene = joint_->scene;
-    if (!contents.cuts)
-        graph.skip("cut search",
-                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
-    if (!contents.tears)
-        graph.skip("tear search",
-                   scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
-    if (!options_.draw && !options_.draws_beside)
-        graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
-                   "no picture is wanted");
-    if (!options_.positions) graph.skip("position readback", "no position export is wanted");
-    if (!contents.counts && !options_.statistics) graph.skip("statistics", "nobody asked for them");
-}
-
-PlannedGraph FrameGraphs::plan(const SetStep& step) {
-    PlannedGraph planned;
-    solver_.declare(planned.graph, {}, *joint_, step.first);
-    solver_.add_attempt(planned.graph, step.second);
-    planned.plan = graph::make_plan(planned.graph);
-    return planned;
 }
 
 std::vector<std::pair<const graph::Graph*, const graph::Plan*>> FrameGraphs::plans() const {
@@ -156,10 +156,6 @@ void FrameGraphs::allocate() {
     if (!planned_all_) plan_known();
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
-    upload();
-}
-
-void FrameGraphs::upload() {
     solver_.upload(*pool_);
     if (raster_) raster_->upload(*pool_);
 }
