@@ -1,7 +1,7 @@
-// This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. Where that
-// `comes_home`, position and displacement go back from the spare images, where an odd number of explicit steps leaves
-// them, to those that the next frame starts from; so may the line method's control, from where an odd number of substeps
-// leaves it. The pass may also keep how much faster the cloth is at the frame's end than in its last substep.
+// This pass ends a frame: X += d, so that the position image holds the state that is drawn and read back. Where
+// `comes_home`, position and displacement return from the spare images, in which an odd number of explicit steps leaves
+// them, to those from which the next frame starts; likewise the line method's control after an odd number of substeps.
+// The pass may also store how much faster the cloth is at the frame's end than in its last substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"

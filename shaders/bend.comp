@@ -1,5 +1,5 @@
-// This plain kernel relaxes one colour of the bending elements of one axis with an invocation per element. Elements of
-// one colour share no particle. Where `masked`, the spring shares come from an image (holes, cuts).
+// This kernel relaxes one colour of the bending elements of one axis with an invocation per element. Elements of one
+// colour share no particle. Where `masked`, the spring shares come from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,5 +1,5 @@
-// This pass moves particles by what the elements pull in whose tangents they are, where a cloth rests bent
-// (include/bend_pull.h). Explicit steps gather it themselves.
+// This pass moves particles by the pulls of the elements whose tangents they define, in cloth that rests bent
+// (include/bend_pull.h). Explicit steps gather these pulls themselves.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bend_types.h"

@@ -1,8 +1,8 @@
-// This pass finds what the bending elements of a cloth that rests bent are at rest (include/rest_bend.h): for those
-// whose middle a particle is, and for the cell whose corner it is, an invocation writes the differences at rest, turned
-// as the particles are predicted to be, and what they pull at their tangents as the particles were when the substep
-// began. Both are taken for constant within the substep. Sides that are cut belong to no tangent. Every texel is
-// written. In `second_order` the control says whether this substep is BDF2.
+// This pass computes the rest differences of the bending elements of a cloth that rests bent (include/rest_bend.h). For
+// the elements whose middle is its particle, and for the cell whose corner it is, an invocation writes the differences
+// at rest, turned as the particles are predicted to be, and the pulls on their tangents for the particles' places when
+// the substep began. Both are treated as constant within the substep. Sides that are cut belong to no tangent. Every
+// texel is written. In `second_order` the control says whether this substep is BDF2.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bend_types.h"
@@ -33,7 +33,8 @@ struct Edge {
 
 const Edge no_edge = Edge(vec3(0.0f), vec3(0.0f), vec3(0.0f));
 
-/// Whether pulls are those of now: BDF2 wants forces at its end, and lagging ones feed motions. Euler steps damp by lag.
+/// Pulls use current places where true: BDF2 needs forces at its end, and lagging ones would amplify motions. In Euler
+/// steps the lag damps.
 bool pulls_now = push.gathers != 0;
 
 Edge edge_between(ivec2 from, ivec2 to) {
@@ -54,7 +55,7 @@ Edge sum_of(Edge one, Edge other, float sign) {
     return Edge(rest, start, now);
 }
 
-/// Returns the way from one particle to another by way of the one between them, as far as both ends hang together.
+/// Returns the vector from one particle to another through the one between them, as far as both are connected to it.
 Edge through(Edge to_first, bool has_first, Edge to_third, bool has_third) {
     Edge first = no_edge, third = no_edge;
     if (has_first) first = to_first;
@@ -62,7 +63,7 @@ Edge through(Edge to_first, bool has_first, Edge to_third, bool has_third) {
     return sum_of(first, third, -1.0f);
 }
 
-/// An element's difference at rest, turned to now, and its pull.
+/// An element's difference at rest, turned to the current places, and its pull.
 struct Bent {
     vec3 target;
     Tangents pull;

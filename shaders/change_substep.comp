@@ -1,5 +1,5 @@
-// This pass runs before a frame whose substeps have another length. It gives the state the history that substeps of
-// that length would have left. In `second_order` it does so for the line solver's history, too.
+// This pass runs before a frame with substeps of another length. It replaces the state's history by the one that
+// substeps of that length would have left; in `second_order` also the line solver's history.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/closed_loop_types.h"

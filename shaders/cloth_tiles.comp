@@ -1,5 +1,5 @@
-// This pass marks the picture's tiles in which a cloth's triangles may be drawn, an invocation per triangle. Where it is
-// `cut`, there are vertices on its cut springs, too.
+// This pass marks the picture's tiles in which a cloth's triangles may be drawn, with an invocation per triangle. Where
+// the cloth is `cut`, there are vertices on its cut springs, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster_types.h"
@@ -23,12 +23,12 @@ void main() {
     for (uint corner = 0u; corner < 3u; ++corner) {
         vec4 clip = clip_position(vertex_position(triangles[first + corner]));
         vec2 at = (0.5 * clip.xy / clip.w + 0.5) * size;
-        // A triangle that goes behind the eye may be seen anywhere.
+        // A triangle that reaches behind the eye may be visible anywhere.
         bool before = clip.w > 1e-6;
         low = min(low, before ? at : vec2(0.0));
         high = max(high, before ? at : size);
     }
-    // A pixel more at either side stands for rounding.
+    // A margin of a pixel at either side allows for rounding.
     ivec2 from = ivec2(clamp(low - 1.0, vec2(0.0), size - 1.0)) >> tile_shift;
     ivec2 to = ivec2(clamp(high + 1.0, vec2(0.0), size - 1.0)) >> tile_shift;
     for (int y = from.y; y <= to.y; ++y)

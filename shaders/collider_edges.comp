@@ -1,6 +1,6 @@
-// This pass leads the cloth between particles out of edges and corners of boxes and meshes (include/collider_edges.h). It
-// writes an image of its own, as particles read their neighbours; the collision pass that follows goes on from there.
-// Where `masked`, the cell image says which triangles exist (holes, cuts).
+// This pass moves the cloth's edges and triangles out of edges and corners of boxes and meshes
+// (include/collider_edges.h). It writes to an image of its own, since particles read their neighbours; the collision
+// pass that follows starts from that image. Where `masked`, the cell image says which triangles exist (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -11,8 +11,8 @@
 #include "include/triangles.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 16) const bool again = false;  // the second round
-layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation takes, 32 at most
+layout(constant_id = 16) const bool again = false;  // this is the second round
+layout(constant_id = 17) const int strip_rows = 1;  // particles of a column that an invocation processes, 32 at most
 CLOTH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
@@ -34,7 +34,7 @@ bool exists(ivec2 cell, int which) {
     return true;
 }
 
-/// Records of at most this many boxes are read where nothing has branched yet (include/contacts.h).
+/// Records of at most this many boxes are read before anything has branched (include/contacts.h).
 const int early_box_count = 4;
 ColliderRecord early_boxes[early_box_count];
 void read_boxes() {
@@ -55,8 +55,9 @@ bool near_edge_of(ColliderRecord collider, vec3 now) {
                          push.contact.x);
 }
 
-/// Returns whether an edge leads from a particle below the plane that touches a mesh where it is nearest. Most particles
-/// lie on what is flat or bulges the other way; without this the default device would meet six triangles for each.
+/// Returns whether an edge leads from a particle below the plane that touches a mesh at its nearest point. Most
+/// particles lie on a surface that is flat or bulges the other way; without this test the default device would process
+/// six triangles for each of them.
 bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
     vec3 local = local_point(collider, now);
     vec4 plane = touching_plane(local, true_mesh(collider));
@@ -71,8 +72,8 @@ bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
 }
 
 #define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
-/// Returns whether a particle may meet an edge of a box or a mesh. In the second round only those may that were near
-/// one in the first, as the first moved no others.
+/// Returns whether a particle may meet an edge of a box or a mesh. In the second round only particles may that were
+/// near one in the first, since the first round moved no others.
 bool may_meet(ivec2 texel, vec4 start, vec4 moved) {
     bool near = again && moved.w != 0.0f;
     vec3 now = moved_position(start.xyz, moved.xyz);
@@ -86,11 +87,11 @@ bool may_meet(ivec2 texel, vec4 start, vec4 moved) {
     return near && start.w != 0.0f;
 }
 
-/// Writes the particles of a strip as they are. Returns those that may meet an edge: bit k is row k.
+/// Writes the particles of a strip unchanged. Returns those that may meet an edge: bit k is row k.
 uint copy_strip(int column, int first, int count) {
     uint rows = 0u;
     int k = 0;
-    do {  // loops end at their bottom (include/every.h)
+    do {  // loops have their tests at the bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 moved = LOAD(displacement, texel);
         bool near = may_meet(texel, LOAD(position, texel), moved);
@@ -103,10 +104,10 @@ uint copy_strip(int column, int first, int count) {
 
 struct Led {
     vec3 moved;    // displacement of a particle, m
-    bool touched;  // whether a collider led it
+    bool touched;  // a collider moved it
 };
 
-/// The plane that touches a mesh is of the corner a.
+/// `plane`: the plane that touches a mesh nearest to the corner a.
 vec3 taken_by_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 plane, ColliderRecord collider,
                        bool is_mesh) {
     if (has_meshes)
@@ -148,7 +149,7 @@ bool near_now(ColliderRecord collider, vec4 start, Led led) {
 }
 
 #define LED_BY(collider) led = led_by(collider, texel, start, led, near_now(collider, start, led), false);
-/// Returns a particle's displacement after all boxes and meshes, and in w 1 where one led it, else -1.
+/// Returns a particle's displacement after all boxes and meshes, with 1 in w if one of them moved it, otherwise -1.
 vec4 led_by_all(ivec2 texel) {
     vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
     Led led = Led(before.xyz, again && before.w > 0.0f);
@@ -166,8 +167,8 @@ void main() {
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     int count = push.grid.y - first < strip_rows ? push.grid.y - first : strip_rows;
-    // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
-    // for a particle.
+    // The default device runs a loop's body at least once for all lanes: here once for a strip instead of once for a
+    // particle.
     uint rows = copy_strip(column, first, count);
     do {
         ivec2 texel = ivec2(column, first + max(findLSB(rows), 0));

@@ -1,9 +1,9 @@
 // This pass moves every particle out of every collider, with friction. It is specialised to the kinds of colliders that
 // the scene has. A particle that is touched has the velocity of the displacement that it is left with. In
-// `second_order` the cloth goes on in backward Euler substeps (include/bdf2.h). `after_edges`, this goes on from what
-// collider_edges.comp left. Where `supporting`, it keeps the surfaces that particles lie on, for contact between cloths.
-// `after_impulses` does that too, and goes on from what contact between cloths has made of the displacements on their
-// sheet; it leaves them there as well.
+// `second_order` the cloth continues in backward Euler substeps (include/bdf2.h). With `after_edges`, the pass starts
+// from what collider_edges.comp left. Where `supporting`, it stores the surfaces on which particles lie, for contact
+// between cloths. With `after_impulses` it does that too, starts from the displacements that contact between cloths
+// left on their sheet, and writes the result there as well.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -14,8 +14,8 @@
 #include "include/push.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 16) const int round_count = 1;  // 1 when the scene has one collider: nothing can overlap
-layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation takes, 32 at most
+layout(constant_id = 16) const int round_count = 1;  // 1 if the scene has one collider, which overlaps no other
+layout(constant_id = 17) const int strip_rows = 1;   // particles of a column that an invocation processes, 32 at most
 CLOTH_CONSTANTS(CollisionPush)
 #define TOGETHER
 #include "include/state_store.h"
@@ -35,7 +35,7 @@ layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacements_in
 VECTOR_OUT(12, displacements_out);
 layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
 layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
-TRIPLE_OUT(10, position_out);  // not `after_impulses`
+TRIPLE_OUT(10, position_out);  // not with `after_impulses`
 
 vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }
 
@@ -44,7 +44,7 @@ vec4 moved_at(ivec2 texel) {
     return LOAD(displacement_in, texel);
 }
 
-/// Stores a displacement where `moved_at` found `moved`.
+/// Stores a displacement in the place where `moved_at` found `moved`.
 void leave(ivec2 texel, vec3 displacement, vec4 moved) {
     if (after_impulses) {
         STORE_IN_COLUMNS(displacements_out, push.laid + texel, push.sheet_columns, vec4(displacement, moved.w));
@@ -53,9 +53,9 @@ void leave(ivec2 texel, vec3 displacement, vec4 moved) {
     STORE_VECTOR(displacement_out, texel, vec4(displacement, moved.w));
 }
 
-/// Leads a particle out of an overlap and returns the displacement to leave. The way out is no velocity, so it is taken
-/// out of `displacement`, and moves where the particle starts; or, after impulses, contact between cloths takes it as a
-/// motion, of which it lets the particle make what crosses nothing (self_return.comp).
+/// Leads a particle out of an overlap and returns the displacement to store. The way out is no velocity, so it is
+/// removed from `displacement` and moves the particle's start instead; or, after impulses, contact between cloths
+/// treats it as a motion, of which it allows the part that crosses nothing (self_return.comp).
 vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     vec3 whole = displacement, led = led_sum(start.xyz, way_out);
     displacement = displacement_of_own(displacement, way_out);
@@ -72,8 +72,8 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     return whole;
 }
 
-/// Returns what is kept as the displacement of the substep before that of a particle that is touched, so that it is not
-/// taken to rebound: its displacement, which self_return.comp will change where impulses pushed it.
+/// Returns the value to store as the previous substep's displacement of a particle that is touched, so that no rebound
+/// is derived from it: its displacement, which self_return.comp will change if impulses pushed it.
 vec3 before_touched(ivec2 texel, vec3 displacement) {
     if (!after_impulses) return displacement;
     ivec2 laid = push.laid + texel;
@@ -82,25 +82,25 @@ vec3 before_touched(ivec2 texel, vec3 displacement) {
     return displacement;
 }
 
-/// Returns the displacement with which a particle comes to the colliders, and in w whether an edge of a collider led it:
-/// above 0 if one did.
+/// Returns the displacement with which a particle comes to the colliders; w is above 0 if an edge of a collider moved
+/// it.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
     if (after_edges) return LOAD(lifted, texel);
     return vec4(moved.xyz, 0.0f);
 }
 
-/// Part of a column.
+/// A part of a column.
 struct Strip {
     int column, first, count;
     vec3 lower, upper;  // corners of the box that holds its particles at their next positions, m
-    float way;          // the farthest that one of them moves, m
+    float way;          // the largest motion of one of them, m
     uint rows;          // rows whose particles may meet a collider, or have touched an edge: bit k is row k
 };
 
 Strip strip_at(int column, int first, int count) {
     Strip strip = Strip(column, first, count, vec3(1.0e30f), vec3(-1.0e30f), 0.0f, 0u);
     int k = 0;
-    do {  // loops end at their bottom (include/every.h)
+    do {  // loops have their tests at the bottom (include/every.h)
         ivec2 texel = ivec2(column, first + k);
         vec4 start = LOAD(position_in, texel), led = led_displacement(texel, moved_at(texel));
         vec3 now = moved_position(start.xyz, led.xyz);
@@ -115,7 +115,7 @@ Strip strip_at(int column, int first, int count) {
     return strip;
 }
 
-/// Returns those of at most 32 colliders from the `begin`-th on that are near a strip: bit k is the k-th of them.
+/// Returns those of at most 32 colliders from the `begin`-th on that are near a strip: bit k is the k-th of these.
 uint near_colliders(Strip strip, int begin, int count) {
     uint near = 0u;
     for (int k = 0; k < count; ++k) {
@@ -142,21 +142,21 @@ uint late_rows(Strip strip) {
     return rows;
 }
 
-/// Has the cloth go on in backward Euler substeps. The load spares an atomic, as most particles that come here find the
-/// hold set.
+/// Makes the cloth continue in backward Euler substeps. Reading first avoids an atomic, since most particles that come
+/// here find the hold set.
 void hold_order() {
     if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
         imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
 }
 
-/// Returns whether that is done. It is not where a particle goes so far that its way has to be followed, unless this
-/// `follows` it, which takes several times as long.
+/// Applies contact to a particle. Returns false, without doing so, if the particle goes so far that its path must be
+/// followed, unless this call `follows` it, which takes several times as long.
 bool meet_all(ivec2 texel, bool follows) {
     vec4 start = LOAD(position_in, texel), moved = moved_at(texel), led = led_displacement(texel, moved);
     vec3 displacement = led.xyz;
     vec2 own = skin_at(texel);
     bool touched = led.w > 0.0f, went_far = false;
-    // A way out of one collider may lead into another, so this repeats until nothing is touched any more.
+    // The way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
@@ -181,7 +181,7 @@ bool meet_all(ivec2 texel, bool follows) {
     if (supporting) {
         vec3 touches = displacement;
         if (after_impulses) touches = grip.xyz;  // the next substep starts where this one leaves the particle
-        if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // else an edge of a collider led it
+        if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // otherwise an edge of a collider moved it
             imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
             imageStore(support_grip, placed(texel), grip);
         }
@@ -198,9 +198,8 @@ void main() {
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
     if (meshes_end > early_collider_count) strip.rows |= late_rows(strip);
-    // The default device runs a loop's body at least once for all lanes, which is here once for a strip instead of once
-    // for a particle.
-    // For the same reason those that go far are kept for a loop of their own.
+    // The default device runs a loop's body at least once for all lanes: here once for a strip instead of once for a
+    // particle. For the same reason particles that go far have a loop of their own.
     uint rows = strip.rows, far = 0u;
     do {
         if (rows != 0u && !meet_all(ivec2(column, first + findLSB(rows)), false)) far |= 1u << findLSB(rows);

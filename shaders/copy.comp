@@ -1,4 +1,4 @@
-// This pass copies a buffer, by which a GPU's memory is measured: it moves what a pass can, unlike a copy command.
+// This pass copies a buffer, to measure a GPU's memory bandwidth: unlike a copy command, it moves what a pass can move.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,5 +1,5 @@
-// This pass copies a field of the state of cloths together, of those that are present. Images have
-// one `integer`, one float (`scalar`), or four.
+// This pass copies a field of the state of those cloths together that are present. The image has one `integer`, one
+// float (`scalar`), or four floats per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

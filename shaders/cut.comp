@@ -14,7 +14,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D cut_flags;  // 2 texels per cell: upper, lower triangle
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D cut_fractions;  // by owned spring; -1: not crossed
 layout(set = 0, binding = 3, std430) readonly buffer Cutters { CutterTriangle cutters[]; };
-layout(set = 0, binding = 4, std430) buffer Count { uint count[]; };  // springs crossed
+layout(set = 0, binding = 4, std430) buffer Count { uint count[]; };  // number of springs crossed
 layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D spring_shares;
 layout(set = 0, binding = 6, r32ui) uniform readonly uimage2D cells;
@@ -41,7 +41,7 @@ void main() {
     bool lower = false;
     for (int k = 0; k < push.triangle_count; ++k) {
         CutterTriangle cutter = cutters[k];
-        if (cutter.a.w == 0.0f) break;  // active ones come first
+        if (cutter.a.w == 0.0f) break;  // active triangles come first
         if (has_right) found.x = first_crossing(found.x, here, right, cutter);
         if (has_below) found.y = first_crossing(found.y, here, below, cutter);
         if (has_right && has_below) found.z = first_crossing(found.z, here, across, cutter);

@@ -1,5 +1,5 @@
-// This pass measures how far a frame is from a coarser run to it. An invocation takes difference_rows particles of a
-// column, and a workgroup leaves a record.
+// This pass measures how far a frame is from that of a coarser run. An invocation takes difference_rows particles of a
+// column, and each workgroup writes a record.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

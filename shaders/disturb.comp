@@ -1,4 +1,4 @@
-// This pass begins a run whose particles are displaced by next to nothing (include/disturb.h).
+// This pass starts the disturbed run: it displaces the particles by a tiny distance (include/disturb.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/closed_loop_types.h"

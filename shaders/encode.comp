@@ -1,8 +1,8 @@
-// This pass makes the picture's bytes from its radiance, once per pixel, where an sRGB attachment would encode every
-// sample. Backdrop and floor show where samples are left uncovered, and are drawn here alone, as triangles for them
-// cost twice as much. An ordered dither of one level (Bayer's 8 x 8 matrix) stands in place of rounding, without which
-// soft gradients show bands. Where `shadowed`, the floor is under the first light's shadow map. Where `sampled`, it averages four samples
-// a pixel itself, as resolving them first takes the default device twice as long.
+// This pass computes the picture's bytes from its radiance, once per pixel, where an sRGB attachment would encode every
+// sample. Backdrop and floor show where samples are uncovered, and are drawn only here, since triangles for them would
+// cost twice as much. An ordered dither of one level (Bayer's 8 x 8 matrix) replaces rounding, which would show bands
+// in soft gradients. Where `shadowed`, the floor is under the first light's shadow map. Where `sampled`, the pass
+// averages four samples per pixel itself, since resolving them first takes the default device twice as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster_types.h"
@@ -40,8 +40,8 @@ float threshold(uvec2 pixel) {
     return (float(rank) + 0.5) / 64.0;
 }
 
-/// Returns the sRGB transfer function, to 0.002 of a level: 1.055 x^(1/2.4) - 0.055 is taken as a polynomial of
-/// x^(1/4), the best of the fifth degree where the curve is used. A power takes the default device three times as long.
+/// Returns the sRGB transfer function, to 0.002 of a level: 1.055 x^(1/2.4) - 0.055 is replaced by the best polynomial
+/// of the fifth degree in x^(1/4) for the range in use. A power would take the default device three times as long.
 vec3 srgb(vec3 linear) {
     vec3 t = sqrt(sqrt(max(linear, 0.0031308)));
     vec3 curve = ((((-0.0681473613 * t + 0.289533198) * t - 0.577482998) * t + 1.25540459) * t + 0.162026227) * t;

@@ -1,8 +1,7 @@
 // This pass is an explicit step: it finishes the last substep (X += d, after the first substep of a frame), gathers the
-// springs around each particle and takes the next step. It reads neighbours, so it writes the other image of each pair,
-// every texel of it. Where `windy`, it adds the
-// wind's force. Where `masked`, it takes the spring shares from an image (holes, cuts). Particles
-// with w = 0 feel no force; the pin pass moves those that the user moves.
+// forces of the springs around each particle and takes the next step. Since it reads neighbours, it writes to the other
+// image of each pair, every texel of it. Where `windy`, it adds the wind's force. Where `masked`, the spring shares
+// come from an image (holes, cuts). Particles with w = 0 feel no force; the pin pass moves those that key frames move.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/bend_types.h"
@@ -19,7 +18,7 @@ CLOTH_CONSTANTS(ExplicitPush)
 const bool in_place = false;
 #include "include/substep_state.h"
 
-layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(constant_id = 0) const bool advance = false;  // the positions lack the last substep's displacement
 layout(constant_id = 1) const bool has_shear = false;
 layout(constant_id = 2) const bool has_bend = false;
 layout(constant_id = 21) const bool masked = false;
@@ -91,8 +90,8 @@ vec3 gather_bend(vec3 sum, Particle center, ivec2 axis, int channel, float bend)
     return sum;
 }
 
-/// Adds the pull of one cell's twist, where `factor` is -twist on the corners 00 and 11 and twist on 10 and 01. All
-/// four corners compute the same difference, so that their pulls are opposite to the bit.
+/// Adds the pull of one cell's twist; `factor` is -twist for the corners 00 and 11 and twist for 10 and 01. All four
+/// corners compute the same difference, so that their pulls are opposite to the bit.
 vec3 gather_cell(vec3 sum, Particle upper_left, Particle upper_right, Particle lower_left, Particle lower_right,
                  float factor) {
     vec3 difference = twist_difference(edge_between(upper_left, upper_right), edge_between(lower_left, lower_right));

@@ -1,10 +1,10 @@
-// This stream takes one explicit step, or some at once of which none is a frame's first, to the bits of as many
-// dispatches of explicit.comp. Each subgroup goes down the rows of a strip of columns and keeps in registers, for every
-// step in flight, the row whose lower neighbours are still to come. Every spring is evaluated once; its other end sees
-// the negated numbers. Column neighbours across invocations come by shuffle, so a step makes one more column at either
-// end of a strip useless: strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Loops are left to the
-// driver, since spirv-opt loses the `precise` of those that it is told to unroll. Where `masked`, the spring shares
-// come from an image.
+// This kernel takes one explicit step, or several at once of which none is a frame's first, with the same bits as that
+// many dispatches of explicit.comp. Each subgroup goes down the rows of a strip of columns and keeps in registers, for
+// every step in flight, the row whose lower neighbours are still to come. Every spring is evaluated once; its other end
+// uses the negated numbers. Column neighbours in other invocations come by shuffle, so each step invalidates one more
+// column at either end of a strip: strips overlap by 2 * `steps`, and bands of rows begin `steps` early. Unrolling is
+// left to the driver, since spirv-opt drops `precise` in loops that it unrolls. Where `masked`, the spring shares come
+// from an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -43,10 +43,10 @@ struct Particle {
     vec3 position;
     float weight;
     vec3 displacement;
-    float mark;  // beside the displacement (verlet.h)
+    float mark;  // the mark beside the displacement (verlet.h)
     vec3 position_remainder;
     vec3 displacement_remainder;
-    vec3 pull;  // pull of the springs so far
+    vec3 pull;  // sum of the springs' pulls so far
 };
 
 int lesser(int a, int b) { return a < b ? a : b; }
@@ -91,8 +91,8 @@ ivec2 nearest_inside(int x, int y) {
     return ivec2(lesser(x, push.grid.x - 1), greater(lesser(y, push.grid.y - 1), 0));
 }
 
-/// Returns the shares of the springs that a particle owns, by direction: half along the grid's borders and 0 for a
-/// spring that leaves the grid. Outside it they are 0 or 1, which reaches nothing that is stored.
+/// Returns the shares of the springs that a particle owns, by direction: half along the grid's borders, 0 for a spring
+/// that leaves the grid. Outside the grid they are 0 or 1, which does not affect any result that is stored.
 vec4 shares_of(int x, int y) {
     vec4 shares;
     if (masked)
@@ -105,7 +105,8 @@ vec4 shares_of(int x, int y) {
                 x > 0 && x < push.grid.x && below ? shares.w : 0.0f);
 }
 
-/// Returns the pull of the spring between two particles on the first of them. The spring's own first one is at `x`, `y`.
+/// Returns the pull of the spring between two particles on the first of them. The spring's own first one is at `x`,
+/// `y`.
 vec3 pull_between(Particle from, Particle to, int x, int y, int channel, float share) {
     precise vec3 closing = to.displacement - from.displacement;
     precise float stiffness = push.relative_stiffness[channel] * share;
@@ -115,7 +116,7 @@ vec3 pull_between(Particle from, Particle to, int x, int y, int channel, float s
     return spring_pull(edge, closing, rest, stiffness, push.compression.x, push.strain_damping);
 }
 
-/// Returns the pull that another invocation computed. A lane at the strip's end, which is given its own number, gets 0.
+/// Returns the pull that another invocation computed; 0 at the strip's end, where `lane` is the invocation's own.
 vec3 pull_of(vec3 pull, int lane) {
     vec3 other = subgroupShuffle(pull, uint(lane));
     return lane == int(gl_SubgroupInvocationID) ? vec3(0.0f) : other;
@@ -191,8 +192,8 @@ Particle stepped(Particle particle, float mark) {
     return next;
 }
 
-/// Takes row `y` into a step: the row above it then has all its springs, is stepped and takes the place of `row`.
-/// `first`: whether the step is the first of those in flight.
+/// Adds row `y` to a step: the row above it then has all its springs, takes the step and replaces `row`. `first`: this
+/// step is the first of those in flight.
 void take_step(inout Particle above[columns], inout Particle row[columns], int y, bool first) {
     Particle done[columns];
     add_springs(above, row, y);

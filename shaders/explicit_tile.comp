@@ -1,8 +1,8 @@
-// This kernel takes some explicit steps at once, none of them a frame's first, to the bits of as many dispatches of
-// explicit.comp. It is for devices that run many invocations: a workgroup holds a tile of particles, one per
-// invocation, and shows them to each other in shared memory after every step. The outermost particles lack neighbours,
-// so their error spreads inwards by one particle a step; therefore tiles overlap by 2 * `halo`, and one that holds the
-// whole cloth needs none. `masked` is that of explicit.comp.
+// This kernel takes some explicit steps at once, none of them a frame's first, with the same bits as that many
+// dispatches of explicit.comp. It is for devices that run many invocations: a workgroup holds a tile of particles, one
+// per invocation, and shows them to each other in shared memory after every step. The outermost particles lack
+// neighbours, so their error spreads inwards by one particle a step; therefore tiles overlap by 2 * `halo`, and one
+// that holds the whole cloth needs none. `masked` is that of explicit.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -44,7 +44,7 @@ struct Particle {
     vec3 displacement_remainder;
 };
 
-// Every particle of the tile shows its position and its displacement, whose y and z are in `shown_too`.
+// Every particle of the tile writes its position and displacement here; the displacement's y and z are in `shown_too`.
 shared vec4 shown[tile_width * tile_width];
 shared vec2 shown_too[tile_width * tile_width];
 
@@ -55,7 +55,7 @@ Particle load_particle(ivec2 texel) {
 }
 
 void show(Particle particle) {
-    barrier();  // all have read the step before
+    barrier();  // all invocations have read the previous step's values
     shown[gl_LocalInvocationIndex] = vec4(particle.position, particle.displacement.x);
     shown_too[gl_LocalInvocationIndex] = particle.displacement.yz;
     barrier();

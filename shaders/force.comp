@@ -1,7 +1,7 @@
 // This pass is Verlet's prediction under gravity and damping: it finishes the last substep (X += d, after the first
-// substep of a frame) and predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 feel no
-// force; the pin pass moves those that the user moves. In the last substep of a frame it may keep the
-// displacement of the one before it.
+// substep of a frame) and predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0
+// feel no force; the pin pass moves those that key frames move. In the last substep of a frame it may store the
+// displacement of the previous one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -13,7 +13,7 @@ CLOTH_CONSTANTS(ForcePush)
 const bool in_place = true;
 #include "include/substep_state.h"
 
-layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(constant_id = 0) const bool advance = false;  // the positions lack the last substep's displacement
 layout(constant_id = 24) const bool keeps_before = false;
 VECTOR_OUT(9, displacement_before);
 

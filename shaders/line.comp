@@ -1,7 +1,7 @@
-// This pass solves the springs of one direction line by line: one invocation solves a line by Thomas' algorithm, in
+// This pass solves the springs of one direction line by line: one invocation solves a line by the Thomas algorithm, in
 // three walks along it. The lines of a direction share no particle, so the displacement is updated in place. The
-// control says whether this substep is BDF2, and counts the lines that met a spring too wrong. Where `masked`, the
-// spring shares come from an image (holes, cuts). Where the cloth `bends`, the line is stiff against bending.
+// control says whether this substep is BDF2, and counts the lines with a spring that is too wrong. Where `masked`, the
+// spring shares come from an image (holes, cuts). Where `bends`, the line also resists bending.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -20,11 +20,11 @@ CLOTH_CONSTANTS(LinePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(2, displacement_out);
-// The scratch has two texels for each particle p of a line. The first walk leaves the eliminated particle in the first
+// The scratch has two texels for each particle p of a line. The first walk stores the eliminated particle in the first
 // texel and, where the line bends, in x of the second. The second walk replaces them: the first texel then holds in xyz
-// the change of displacement by the first system and in w the tension that this leaves the spring after p, and the
-// second in xy that spring, eliminated. An invocation reads what it wrote itself. Buffers take both as pairs of floats,
-// since on the default device every store is a loop of its own over the lanes, whose rounds cost by the element.
+// the change of displacement by the first system and in w the tension of the spring after p that results, and the
+// second in xy that spring, eliminated. An invocation reads only what it wrote itself. Buffers take both as pairs of
+// floats, since on the default device every store is a loop over the lanes, whose cost is per element.
 layout(set = 0, binding = 3, rgba32f) uniform coherent readonly image2D line_scratch_in;
 struct TwoTexels {
     u64vec3 pairs;
@@ -44,13 +44,13 @@ layout(constant_id = 0) const bool first_iteration = true;  // solves both syste
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // edge or normal of the spring that a line's end lacks
 
-/// Returns the place of a particle's scratch. Those that a subgroup stores at a time lie side by side.
+/// Returns the index of a particle's scratch. The entries that a subgroup stores at one time are adjacent.
 int place(Line line, int p) {
     int group = int(gl_WorkGroupID.z * gl_NumWorkGroups.x + gl_WorkGroupID.x);
     return (group * (line.last + 1) + p) * line_group_width + int(gl_LocalInvocationIndex);
 }
 
-/// The scratch image is addressed as if it had only one row.
+/// Returns the texel in the scratch image, which is addressed as if it had only one row.
 ivec2 scratch_texel(int texel) { return ivec2(texel & (line_scratch_width - 1), texel / line_scratch_width); }
 
 vec4 load_first(Line line, int p) { return imageLoad(line_scratch_in, scratch_texel(2 * place(line, p))); }
@@ -81,7 +81,7 @@ void store_bent(Line line, int p, BentParticle particle) {
     store_scratch(line, p, vec4(particle.turn, particle.by_turn), vec2(particle.by_shift, 0.0f));
 }
 
-/// A walk from the start of a line that bends knows this before it eliminates particle p.
+/// The values that a walk from the start of a line that bends has before it eliminates particle p.
 struct BentWalk {
     int p;
     LineParticle particle, next;
@@ -90,7 +90,7 @@ struct BentWalk {
     BentLine bent;
 };
 
-/// Eliminates particle p. A share of 0 for the spring after its own says that there is none.
+/// Eliminates particle p. `share_after` is 0 if no spring follows its own.
 void eliminate_between(Line line, inout BentWalk walk, vec3 edge_after, float share_after) {
     float stiffness = stiffness_of(line, walk.particle, walk.next, walk.share);
     vec3 difference = beyond_rest(second_difference(-walk.edge, edge_after), bend_target(walk.next.at, line.channel));
@@ -112,7 +112,7 @@ void eliminate_next(Line line, inout BentWalk walk) {
     walk.share = share_after;
 }
 
-/// Eliminates in the first system of a line that bends, from its start on.
+/// Eliminates particles of the first system of a line that bends, from its start on.
 void eliminate_bent_particles(Line line) {
     LineParticle particle = load_particle(line_start(line.index, line.step));
     LineParticle next = particle_after(line, particle);
@@ -123,7 +123,7 @@ void eliminate_bent_particles(Line line) {
     store_bent(line, line.last, eliminate_last_bent(walk.bent, walk.next.position.w));
 }
 
-/// A walk from the line's start on knows this before it eliminates particle p.
+/// The values that a walk from the line's start has before it eliminates particle p.
 struct ParticleWalk {
     int p;
     LineParticle particle;
@@ -145,7 +145,7 @@ void eliminate_next(Line line, inout ParticleWalk walk) {
     ++walk.p;
 }
 
-/// Eliminates in the first system, from the line's start on.
+/// Eliminates particles of the first system, from the line's start on.
 void eliminate_particles(Line line) {
     ParticleWalk walk =
         ParticleWalk(0, load_particle(line_start(line.index, line.step)), unmoved_start(), none, 0.0f);
@@ -155,8 +155,8 @@ void eliminate_particles(Line line) {
     store_first(line, line.last, walk.eliminated.row);
 }
 
-/// Returns the change of particle p by the first system, given that of the particle after it. `turn` is how the edge
-/// after that particle turns, and becomes how the edge after p does.
+/// Returns the change of particle p by the first system, from that of the next particle. `turn` is the turn of the edge
+/// after that particle, and becomes that of the edge after p.
 vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
     if (!first_iteration) return vec3(0.0f, 0.0f, 0.0f);
     if (!bends) return substitute_particle(load_first(line, p), delta_after);
@@ -164,7 +164,7 @@ vec3 delta_of(Line line, int p, vec3 delta_after, inout vec3 turn) {
     return bent_delta(delta_after, turn);
 }
 
-/// A walk from the line's end back knows this before it eliminates spring e.
+/// The values that a walk back from the line's end has before it eliminates spring e.
 struct SpringWalk {
     int e;
     LineParticle first, second;  // particles of spring e
@@ -175,7 +175,7 @@ struct SpringWalk {
     float largest;    // largest |C - T| so far, m
 };
 
-/// Eliminates spring e and stores it beside its first particle's change by the first system.
+/// Eliminates spring e and stores it beside the change of its first particle by the first system.
 void eliminate_between(Line line, inout SpringWalk walk, vec3 normal_before) {
     float share = share_of(line, walk.first.at);
     float tension = filtered_tension_of(line, walk.first, walk.second, walk.spring);
@@ -203,7 +203,7 @@ void eliminate_next(Line line, inout SpringWalk walk) {
 }
 
 /// Substitutes in the first system and eliminates in the second, from the line's end back. Returns the largest |C - T|
-/// that it meets, m.
+/// of the line, m.
 float eliminate_springs(Line line) {
     vec3 turn = none;
     LineParticle second = load_particle(line_end(line.index, line.step, line.last + 1, line.columns));
@@ -221,7 +221,7 @@ float eliminate_springs(Line line) {
     return walk.largest;
 }
 
-/// A walk from the line's start on knows this before it writes particle p.
+/// The values that a walk from the line's start has before it writes particle p.
 struct MoveWalk {
     int p;
     LineParticle first;  // particle p

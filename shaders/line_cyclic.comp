@@ -1,7 +1,7 @@
-// This kernel solves the springs of one direction line by line, as line.comp does, on devices that run many
-// invocations. It has one per particle and a workgroup per line, or for several short ones, and solves both systems by
-// parallel cyclic reduction. A workgroup reads all of its lines before it writes any of them, so the displacement is
-// updated in place. `masked` and `bends` are those of line.comp.
+// This kernel solves the springs of one direction line by line, as line.comp does, on devices that run many invocations
+// at once. It has an invocation per particle and a workgroup per line, or for several short ones, and solves both
+// systems by parallel cyclic reduction. A workgroup reads all of its lines before it writes any of them, so the
+// displacement is updated in place. `masked` and `bends` are as in line.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/cyclic_types.h"
@@ -44,12 +44,12 @@ Part read_part(Line line, bool is_line) {
     LineParticle first =
         load_particle(line_end(line.index, line.step, (p < last ? p : last) + 1, line.columns));
     bool has_spring = is_line && p < last;
-    // The last particle's own neighbour may lie outside the sheet, which loads as zeros.
+    // The last particle's neighbour may lie outside the sheet, where loads return zeros.
     return Part(is_line && p <= last, has_spring, first, particle_after(line, first),
                 has_spring ? share_of(line, first.at) : 0.0f);
 }
 
-/// The target of a place of the line; beyond its ends, where nothing bends, that of the end.
+/// Returns the target at a place of the line; beyond its ends, where nothing bends, that at the end.
 vec3 target_at(Line line, int p) {
     int near = p < 0 ? 0 : p > line.last ? line.last : p;
     return bend_target(line_end(line.index, line.step, near + 1, line.columns), line.channel);
@@ -87,7 +87,7 @@ float change_of(Line line, Part part, LineSpring spring, float tension) {
     return cyclic_solution(uncoupled(row, line.last)).x;
 }
 
-/// Tells the control when a spring of the line is wrong.
+/// Reports to the control if a spring of the line is wrong.
 void report(bool is_wrong) {
     if (is_wrong) atomicOr(wrong[gl_LocalInvocationID.y], 1u);
     barrier();

@@ -1,9 +1,9 @@
 // This kernel solves the springs of one direction line by line, as line_cyclic.comp does, where lines are long and do
-// not bend: an invocation has eight particles of its line, in registers (include/part_group.h), so that a workgroup
-// waits for its invocations five times, however long the lines are. Particles are loaded and stored where invocations
-// beside each other have texels beside each other, two lines at once, and are handed within a subgroup to those that
-// own them. `masked` is that of line.comp. What is done for every particle is written out: code that spirv-opt unrolls is
-// not precise any more, and arrays that are not indexed by constants would be no registers.
+// not bend. In it an invocation has eight particles of its line, in registers (include/part_group.h), so that a
+// workgroup waits for its invocations five times, however long the lines are. Particles are loaded and stored where
+// invocations beside each other have texels beside each other, two lines at once, and are handed within a subgroup to
+// those that own them. `masked` is that of line.comp. What is done for every particle is written out: code that
+// spirv-opt unrolls is not precise any more, and arrays that are not indexed by constants would be no registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -34,26 +34,26 @@ layout(constant_id = 2) const bool first_iteration = true;
 
 #define FOR_EACH_PARTICLE(act) act(0); act(1); act(2); act(3); act(4); act(5); act(6); act(7)
 
-Line line;         // the one that this invocation owns particles of
-bool is_line;      // it is one, and not what a workgroup has beyond the last
-int first_owned;   // place of the first of them on it
-bool read_is_line; // the same of the line that this invocation loads particles of
-int first_read;    // place of the first of them, of which each is `lanes` after the one before
-ivec2 first_at;    // where that is
+Line line;         // the line of the particles that this invocation owns
+bool is_line;      // it is a line of the cloth; a workgroup may have more places
+int first_owned;   // place of the first owned particle on it
+bool read_is_line; // the same for the line whose particles this invocation loads
+int first_read;    // place of the first of these; each next one is `lanes` farther
+ivec2 first_at;    // the texel of that particle
 int stride;        // columns from one of them to the next
 int read_line_at;  // which of the subgroup's lines that is
 
-// These are of the owned particles and the springs after them.
-vec3 edge[part_particles];      // edges, m; in the second system their normals
+// The following belong to the owned particles and the springs after them.
+vec3 edge[part_particles];      // edges, m; in the second system, their normals
 float weight[part_particles];
-float weight_after;             // that of the particle after the last
+float weight_after;             // of the particle after the last
 float tension[part_particles];  // per length in the first system, then the tension, m
 float excess[part_particles];   // how much too long springs are, m
-vec3 delta[part_particles];     // what the first system changes displacements by, m
-vec3 delta_after;               // that of the particle after the last
+vec3 delta[part_particles];     // changes of displacements by the first system, m
+vec3 delta_after;               // of the particle after the last
 vec3 normal_before, normal_after;
 float share[part_particles], rest[part_particles];  // where `masked`
-uint existing;                                      // else; bit j: spring j exists
+uint existing;                                      // otherwise; bit j: spring j exists
 float share_at(const int j) {
     if (masked) return share[j];
     return (existing & (1u << j)) != 0u ? line.share : 0.0f;
@@ -68,8 +68,8 @@ shared vec4 edges_kept[groups * part_lines];
 shared vec3 deltas_kept[groups * part_lines], first_normals[groups * part_lines], last_normals[groups * part_lines];
 shared float handed[groups * subgroup_lanes * part_particles];  // a number of every particle of a subgroup's parts
 
-/// Where `handed` has the i-th number of a subgroup, of that line of its two. Of shared memory's 32 banks every one is
-/// used once when invocations write or read one number each, in both orders.
+/// Returns where `handed` has the i-th number of a subgroup, for one of its two lines. Each of shared memory's 32 banks
+/// is used once when invocations write or read one number each, in both orders.
 int handed_at(int i, int line_at) {
     int spread = i ^ ((i >> 5) & (part_particles - 1)) ^ (line_at * 16);
     return int(gl_SubgroupID) * subgroup_lanes * part_particles + spread;
@@ -87,7 +87,8 @@ void wait_for_subgroup() {
     subgroupBarrier();
 }
 
-/// Numbers that go from the invocations that loaded particles to their owners, or back to those that store them.
+/// Numbers that are passed from the invocations that loaded particles to their owners, or back to those that store
+/// them.
 float numbers[part_particles];
 void write_read(const int j) { handed[read_place(j)] = numbers[j]; }
 void read_read(const int j) { numbers[j] = handed[read_place(j)]; }
@@ -106,7 +107,7 @@ void from_owners() {
     FOR_EACH_PARTICLE(read_read);
 }
 
-/// An invocation loads this of a particle, and of the spring after it.
+/// What an invocation loads for a particle and the spring after it.
 struct Read {
     vec4 start, moved;
     float tension, share, rest;
@@ -134,8 +135,8 @@ void load(const int j) {
     go_on(j);
 }
 
-/// Makes the edge of a spring, whose second particle another invocation has loaded. Where the first system is solved,
-/// its tension is per length from here on.
+/// Computes the edge of a spring, whose second particle another invocation has loaded. Where the first system is
+/// solved, the tension is per length from here on.
 void make_edge(const int j) {
     int in_subgroup = int(gl_SubgroupInvocationID);
     Read own = loaded[j], asked = own;
@@ -290,7 +291,8 @@ void solve_springs() {
     solve(false);
 }
 
-/// From here on `delta` is what both systems change a displacement by, and the tension is as it is stored.
+/// After this, `delta` is the change of a displacement by both systems, and the tension is in the form in which it is
+/// stored.
 void correct(const int j) {
     float before = j > 0 ? solution[max(j - 1, 0)].x : solution_before.x, change = solution[j].x;
     vec3 correction = line_correction(normal_at(j - 1), before, edge[j], change);
@@ -322,7 +324,7 @@ void store(const int j) {
 
 void store_particles() {
     FOR_EACH_PARTICLE(correct);
-    cursor = first_at + (push.line_count < 0 ? 1 : 0);  // so that registers need not keep what was loaded before
+    cursor = first_at + (push.line_count < 0 ? 1 : 0);  // recomputed, so that registers need not keep it
     FOR_EACH_PARTICLE(load_displaced);
     FOR_EACH_PARTICLE(hand_x);
     from_owners();

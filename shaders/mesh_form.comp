@@ -1,5 +1,5 @@
-// This pass finds the distances from every sample of the field of a mesh that deforms to the mesh when the frame begins
-// and when it ends, and how far the surface near it moves. An invocation takes a sample.
+// This pass computes, for every sample of the field of a mesh that deforms, the distances to the mesh at the frame's
+// start and end, and how far the surface near it moves. Each invocation computes one sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

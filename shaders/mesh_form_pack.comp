@@ -1,5 +1,5 @@
-// This pass puts the distances that mesh_form.comp found into the texels of a field, each of which holds those of four
-// samples. An invocation takes a sample.
+// This pass packs the distances that mesh_form.comp computed into the texels of a field, four samples in each. Each
+// invocation packs one sample.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -24,6 +24,6 @@ void main() {
     int texel = push.size.w + 3 * sample_beside(push, x, y, z, 0, 0);
     mesh_fields[texel] = vec4(here.x, up.x, far.x, both.x);
     mesh_fields[texel + 1] = vec4(here.y, up.y, far.y, both.y);
-    // The second texel of the field's head says what share of the frame a substep is.
+    // The second texel in the field's header contains the share of the frame that a substep takes.
     if (x == 0 && y == 0 && z == 0) mesh_fields[push.size.w - 1].w = push.substep;
 }

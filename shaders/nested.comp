@@ -12,14 +12,14 @@
 
 layout(local_size_x = nested_group_width, local_size_x_id = 0) in;
 #include "include/nested_boxes.h"
-// A texel is of the spring that a particle owns in the direction at hand. xy: the spring, eliminated; z: its stored
-// tension before this direction is solved.
+// Each texel belongs to the spring that a particle owns in the current direction. xy: the spring, eliminated; z: its
+// stored tension before this direction is solved.
 layout(set = 0, binding = 4, rgba32f) uniform coherent readonly image2D nested_rows_in;
 COHERENT_TRIPLE_OUT(5, nested_rows_out);
 
 const vec3 none = vec3(0.0f, 0.0f, 0.0f);  // normal of the spring that a line's end lacks
 
-/// A walk from the line's end back knows this before it eliminates a spring.
+/// The values that a walk back from the line's end has before it eliminates a spring.
 struct SpringWalk {
     NestedParticle first, second;  // particles of the spring
     LineSpring spring;
@@ -54,7 +54,7 @@ void eliminate_line(NestedLine line) {
     eliminate_between(line, walk, none);
 }
 
-/// A walk from the line's start on knows this before it writes a particle.
+/// The values that a walk from the line's start has before it writes a particle.
 struct MoveWalk {
     NestedParticle first;
     vec3 normal_before;
@@ -77,7 +77,7 @@ void move_next(NestedLine line, inout MoveWalk walk) {
     float share = share_of(line, walk.first);
     float tension = changed_tension(tension_in_use(row.z, line.per_followed), change, share,
                                     SPRING_COMPLIANCE(line, share));
-    // The spring across the box's seam is not the box's: it keeps what it has.
+    // The spring across the box's seam does not belong to the box, so its tension stays.
     store_tension(line.direction, walk.first.at, share > 0.0f ? stored_tension(tension, line.followed) : row.z);
     walk.first = second;
     walk.normal_before = spring.normal;

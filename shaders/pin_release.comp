@@ -1,6 +1,7 @@
 // This pass frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass.
-// The substep that follows is the first without the pin's force (include/pin.h). Where the method `carries_to_release`, the
-// springs' last pull comes from their stored tension. In `second_order` it asks the control for backward Euler substeps.
+// The following substep is the first without the pin's force (include/pin.h). Where the method `carries_to_release`,
+// the springs' last pull comes from their stored tension. In `second_order` it asks the control for backward Euler
+// substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -11,7 +12,7 @@
 #include "include/pin.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
+layout(constant_id = 0) const bool advance = false;  // the positions lack the last substep's displacement
 CLOTH_CONSTANTS(ReleasePush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
@@ -68,7 +69,7 @@ void main() {
     ivec4 index = pinned_particles[particle].index;
     int cloth = index.w / given.grid.y;
     if (!is_present(uint(cloth))) return;
-    push = constants_of(uint(cloth));  // a list of pins is of all cloths
+    push = constants_of(uint(cloth));  // a list of pins contains those of all cloths
     vec4 rest = pinned_particles[particle].rest;
     PinMotion motion = pin_motions[given.motion_first + index.z];
     if (motion.held.x != 0.0f || rest.w == 0.0f) return;

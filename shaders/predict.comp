@@ -1,6 +1,7 @@
 // This pass is the prediction of the line solver in second order: it finishes the last substep (X += d, after the first
-// substep of a frame), decides for each cloth whether the substep is BDF2 or backward Euler, moves the history on and
-// predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 keep a history, for the day they are released.
+// substep of a frame), decides for each cloth whether the substep is BDF2 or backward Euler, shifts the history and
+// predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 have a history too, in
+// case they are released.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -14,8 +15,8 @@ CLOTH_CONSTANTS(PredictPush)
 const bool in_place = true;
 #include "include/substep_state.h"
 
-layout(constant_id = 0) const bool advance = false;  // the positions still lack the last substep's displacement
-layout(constant_id = 1) const bool turns = false;    // the displacement goes to another image than it is read from
+layout(constant_id = 0) const bool advance = false;  // the positions lack the last substep's displacement
+layout(constant_id = 1) const bool turns = false;    // the displacement goes to another image than the one read
 layout(set = 0, binding = 9, rgba32f) uniform readonly image2D displacement_before_in;
 TRIPLE_OUT(10, displacement_before_out);
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_in;
@@ -23,7 +24,7 @@ TRIPLE_OUT(12, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control_in;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out;
 
-bool second_order;  // decided where nothing has branched yet (docs/devices.md)
+bool second_order;  // decided before anything has branched (docs/devices.md)
 
 uint control_before(int texel) { return imageLoad(line_control_in, ivec2(texel, cloth_place())).x; }
 
@@ -31,7 +32,7 @@ void store_control(int texel, uint value) {
     imageStore(line_control_out, ivec2(texel, cloth_place()), uvec4(value, 0u, 0u, 0u));
 }
 
-/// Every invocation decides, and one of each cloth writes what it decided.
+/// Every invocation decides, and one invocation of each cloth writes the decision.
 void decide_order() {
     LineControl control =
         next_control(LineControl(control_before(control_order), control_before(control_wrong_lines),

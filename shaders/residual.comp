@@ -1,6 +1,6 @@
 // This pass measures the stretch error within a substep. An invocation takes residual_rows particles of a column, each
-// with the stretch springs whose first particle it is, and a workgroup leaves a record. Where `masked`, the spring
-// shares come from an image (holes, cuts).
+// with the stretch springs that it owns, and each workgroup writes a record. Where `masked`, the spring shares come
+// from an image (holes, cuts).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

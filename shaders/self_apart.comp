@@ -1,5 +1,5 @@
-// This pass finds the displacement that leads a cloth apart from those that it started through and still crosses. It
-// has one invocation per cloth.
+// This pass computes the displacement that leads a cloth apart from those that it started through and still crosses,
+// with one invocation per cloth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,5 +1,5 @@
-// This pass begins with the pairs that touch: how they lie, what they bore in the last substep and now begin with, and how
-// much contacts hold of every corner.
+// This pass prepares the pairs that touch: how they lie, the impulse that they bore in the last substep and now begin
+// with, and how strongly contacts hold each corner.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
@@ -24,7 +24,7 @@ layout(set = 0, binding = 7, std430) readonly buffer Borne { SelfBorne borne[]; 
 
 vec3 where(uint corner) { return imageLoad(positions, self_texel(corner)).xyz; }
 
-/// Returns the force that a pair bore in the last substep, zero where it did not touch.
+/// Returns the force that a pair bore in the last substep, zero if it did not touch.
 vec3 force_borne(bool edges, uvec4 pair) {
     vec3 force = vec3(0.0f, 0.0f, 0.0f);
     int chain = place_of(self_texel(pair.x)) * self_chains + self_chain(pair);

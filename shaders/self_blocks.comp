@@ -1,6 +1,6 @@
-// This pass runs where the margin of the last search is used up. It lists the pairs of blocks of 2 x 2 cells that this
-// substep or one to come may bring together. Every block goes through the tree of boxes for others near its own, from
-// its own on, so that no two meet twice. The list has no order, so later passes must not depend on any.
+// This pass runs when the margin of the last search is used up. It lists the pairs of blocks of 2 x 2 cells that this
+// substep or later ones may bring together. Every block searches the tree of boxes for blocks near it, from its own
+// place on, so that each pair is found once. The list has no defined order, so later passes must not depend on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -24,8 +24,8 @@ bool meets(int owner, SelfBox box, ivec2 block, SelfBox other_box) {
     return self_boxes_meet(box, other_box, push, self_mean_thickness(cloths[owner], cloths[other]));
 }
 
-/// Returns whether a node of the tree has cells of the member whose rectangle begins at `corner`. Members do not meet,
-/// and are in each other's way, as nothing keeps them apart in space.
+/// Returns whether a node of the tree has cells of the member whose rectangle begins at `corner`. Members do not touch
+/// each other, but nothing keeps them apart in space, so their nodes would only be in the way.
 bool is_of_member(ivec2 node, int level, ivec2 corner) {
     if (member_count == 1) return true;
     ivec2 end = corner + push.member_size, from = node << level, to = (node + 1) << level;
@@ -59,7 +59,8 @@ void main() {
             entered = false;
         }
         bool found = open && level == 1;
-        // A scene's only cloth needs no further test: it meets itself, and `open` judged it by its own thickness.
+        // The only cloth of a scene needs no further test: it has self-contact, and `open` judged it by its own
+        // thickness.
         if (cloth_count > 1) found = found && meets(owner, box, node, box_at(place));
         if (found) {
             uint at = atomicAdd(record[0].block_count, 1u);

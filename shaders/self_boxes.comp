@@ -1,8 +1,8 @@
-// This pass makes the boxes over the sheet as it is at the start of a substep, one per particle about the cell whose
-// first corner that is. It resets the lists of what pairs bore by their first corner and keeps the motions that the
-// particles would make without contact. Where a cell has left the box with which it was last looked for, there is a
-// new search, for which the last workgroup to come to its end sets the sizes of passes. Where some
-// cloths `crossed` when they started, it also resets what is found of those.
+// This pass computes the boxes over the sheet at the start of a substep, one per particle for the cell whose first
+// corner it is. It resets the lists, by first corner, of what pairs bore, and stores the motions that the particles
+// would make without contact. Where a cell has left the box with which it was last searched for, there is a new search,
+// for which the last workgroup to finish sets the sizes of passes. Where some cloths `crossed` when they started, the
+// pass also resets what is found about those.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -25,7 +25,7 @@ layout(set = 0, binding = 11, std430) writeonly buffer Crossings { SelfCrossings
 void forget_crossings(int k) { crossings[k] = SelfCrossings(0, 0); }
 
 #include "include/self_carried.h"
-vec3 first_travel;  // the first record's, read as early
+vec3 first_travel;  // the first record's, read early
 vec3 travel_at(int place) {
     vec3 travel = first_travel;
     if (member_count > 1) travel = record[member_at(place)].travel.xyz;
@@ -48,9 +48,9 @@ SelfBox cell_box(ivec2 texel, SelfCloth cloth) {
     return box;
 }
 
-/// Returns whether a cell has left the box with which it was looked for, or may have by rounding. The travel that all
-/// cells have made since then brings none nearer to another, so it does not count. There is no && or ||, which would
-/// branch.
+/// Returns whether a cell has left the box with which it was searched for, or may have by rounding. The travel that all
+/// cells have made since then brings none nearer to another, so it does not count. The code has no && or ||, which
+/// would branch.
 bool has_left(SelfBox box, SelfBox was, vec3 travel) {
     vec3 least = vec3(push.least);
     precise vec3 above = (box.lower.xyz - travel) - was.lower.xyz;
@@ -82,7 +82,7 @@ void begin_search() {
     for (int member = 0; member < member_count; ++member) record[member].travel = vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
 
-/// The last workgroup knows what all have asked for.
+/// The last workgroup to finish knows what all have asked for.
 void end_workgroup() {
     uint ended = atomicAdd(sizes[self_size_search].w, 1u) + 1u;
     memoryBarrierBuffer();

@@ -1,6 +1,6 @@
-// This pass finds the impulses of the pairs that touch from the motions that those of the round before have left, and
-// adds them up in integers, so that the order does not matter. The first round also adds up what leads pairs apart that
-// lack some of their thickness; the last one notes what every pair bears, for the next substep.
+// This pass computes the impulses of the pairs that touch, from the motions under the previous round's impulses, and
+// sums them as integers, so that the order does not matter. The first round also sums the impulses that lead pairs
+// apart that lack some of their thickness; the last one records what every pair bears, for the next substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
@@ -25,7 +25,7 @@ layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer supports;
 #include "include/self_carried.h"
 
 struct Corner {
-    vec3 motion;  // by the impulses of the round before, m
+    vec3 motion;  // under the previous round's impulses, m
     float mass, holds;
 };
 

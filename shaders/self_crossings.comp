@@ -1,5 +1,5 @@
-// This pass counts the pairs of cells near each other in which cloths that started through each other still cross, and
-// adds up how fast they part there, in integers, so that the order does not matter.
+// This pass counts the pairs of near cells in which cloths that started through each other still cross, and sums the
+// speeds at which they separate there, as integers, so that the order does not matter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -37,7 +37,7 @@ void judge_crossed(SelfCrossed pair, int which, ivec2 cells_of) {
 void judge(int entry) {
     ivec2 pair = cells[entry];
     uint meeting = meetings[owner_of(pair.x) * push.cloth_count + owner_of(pair.y)];
-    // On the default device only a loop skips anything, so this is one of no round or one.
+    // On the default device only a loop can skip code, so this is a loop of no round or one.
     int rounds = meeting >= self_meets_apart ? 1 : 0, which = int(max(meeting, self_meets_apart) - self_meets_apart);
     for (int k = 0; k < rounds; ++k) judge_crossed(crossed[which], which, pair);
 }

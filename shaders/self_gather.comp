@@ -1,8 +1,8 @@
-// This pass lays a cloth's particles on the sheet, as they are at this point of a substep. Where `masked`, an image
-// says which triangles exist (holes, cuts). Where `supported`, it also lays there the surfaces that they lie on. The pass of a member's last
-// cloth begins its contact in the substep too: the first workgroup finds the motion that all of its particles are
-// measured against, which a few samples have in common, or none where some are always held, and resets the records of
-// the passes to come.
+// This pass copies a cloth's particles to the sheet, as they are at this point of a substep. Where `masked`, an image
+// says which triangles exist (holes, cuts). Where `supported`, it also copies the surfaces on which they lie. The pass
+// of a member's last cloth also begins the member's contact in the substep: the first workgroup computes the common
+// motion relative to which all of its particles are measured, from a few samples, or none where some particles are
+// always held, and resets the records for the passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -16,7 +16,7 @@ CLOTH_CONSTANTS(SelfClothPush)
 #include "include/strips.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
-// These two are of the sheet, where those of other cloths stay.
+// These two images are the sheet's; what other cloths have there stays.
 VECTOR_KEPT(2, positions);
 VECTOR_KEPT(3, displacements);
 layout(constant_id = 21) const bool masked = false;
@@ -39,7 +39,7 @@ bool exists(ivec2 cell, int which) {
     return true;
 }
 
-/// Returns bits of the primitives that a particle owns and that exist: two triangles, then three edges.
+/// Returns the bits of the primitives that a particle owns and that exist: two triangles, then three edges.
 uint owned(ivec2 texel) {
     uint bits = (exists(texel, 1) ? 1u : 0u) | (exists(texel, 2) ? 2u : 0u);
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ void lay(ivec2 texel) {
     vec3 moved = LOAD(displacement, texel).xyz;
     STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
     if (!supported) return;
-    // It is taken back, as this substep's last collision says where a particle lies then.
+    // The mark is reset, since this substep's last collision decides anew where a particle lies.
     vec4 plane = LOAD(support, texel);
     int at = 2 * (laid.y * push.sheet.x + laid.x);
     supports[at] = plane;
@@ -66,19 +66,19 @@ void lay(ivec2 texel) {
 
 void lay_all() { FOR_STRIP(texel, push.grid, lay(texel)) }
 
-/// Returns the motion of a sample, k-th of all the member's cloths'.
+/// Returns the motion of the k-th sample of all the member's cloths.
 vec3 sample_of(int k) {
     SelfCloth cloth = cloths[push.member * push.cloth_count + k / self_cloth_samples];
     ivec2 own = self_sample(cloth.grid, k % self_cloth_samples);
-    // This pass may not have laid its own cloth yet.
+    // This pass may not have copied its own cloth yet.
     if (cloth.first == push.first) return LOAD(displacement, own).xyz;
     vec4 laid;
     LOAD_IN_COLUMNS(laid, displacements, cloth.first + own, push.sheet.x)
     return laid.xyz;
 }
 
-/// Returns the mean motion of all samples, which a workgroup loads at once and one invocation adds up in their order: on
-/// the default device each subgroup that does so takes as long again.
+/// Returns the mean motion of all samples. A workgroup loads them at once and one invocation sums them in order: on the
+/// default device each further subgroup that did so would take as long again.
 vec3 mean_of_samples(int count) {
     int lane = int(gl_LocalInvocationIndex);
     precise vec3 sum = vec3(0.0f, 0.0f, 0.0f);
@@ -94,7 +94,7 @@ vec3 mean_of_samples(int count) {
     return sampled[0];
 }
 
-/// Returns, in the first invocation, how much of the mean motion the sample makes that makes least of it, at most all.
+/// Returns, in the first invocation, the smallest part of the mean motion that any sample makes, at most 1.
 float least_part_of(vec3 mean, int count) {
     int lane = int(gl_LocalInvocationIndex);
     float least = 1.0f;

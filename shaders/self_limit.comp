@@ -1,8 +1,8 @@
-// This pass finds, for every listed pair, the share of its motion that each corner may make and still be on its side of
-// the plane between the two. A particle keeps the least share of all its pairs; positive floats order as their bits do.
-// In the first round nobody moves yet. Each next round begins with the motions that the round before found to cross
-// nothing: then the planes have moved too, and layers that move together do not hold each other back. It runs only
-// where the round before cut a motion short.
+// This pass computes, for every listed pair, the share of its motion that each corner may make and still remain on its
+// side of the plane between the two. A particle keeps the smallest share over all its pairs; positive floats are
+// ordered as their bits are. In the first round no particle has moved yet. Each later round begins with the motions
+// that the previous round found to cross nothing: the planes have then moved too, so that layers that move together do
+// not hold each other back. The pass runs only if the previous round cut a motion short.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -28,7 +28,7 @@ struct Corner {
     int place;
     vec3 x;
     bool held;
-    float along, share;  // its motion along the normal, m, and the share of it that it makes already
+    float along, share;  // its motion along the normal, m, and the share of it that it already makes
 };
 
 vec3 motion(Corner corner, uint which, float thickness) {

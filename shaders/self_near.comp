@@ -12,8 +12,8 @@
 #include "include/self_ring.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 17) const int strip_rows = 1;     // most cells of a column that an invocation takes in turn
-layout(constant_id = 19) const int strip_columns = 1;  // columns that an invocation takes
+layout(constant_id = 17) const int strip_rows = 1;     // most cells of a column that an invocation processes
+layout(constant_id = 19) const int strip_columns = 1;  // columns that an invocation processes
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
 layout(set = 0, binding = 4, std430) readonly buffer Meetings { uint meetings[]; };
@@ -47,7 +47,7 @@ ivec2 cell_of(int block, int k) {
 bool inside(ivec2 cell) { return cell.x < push.grid.x && cell.y < push.grid.y; }
 int index_of(ivec2 cell) { return min(cell.y, push.grid.y - 1) * push.grid.x + min(cell.x, push.grid.x - 1); }
 
-/// The cells of a block lie in these boxes.
+/// A block, with the boxes of its cells.
 struct Block {
     ivec2 at;
     int cloth;
@@ -60,8 +60,8 @@ Block block_of(int block) {
                  kept_at(index_of(cell_of(block, 2))), kept_at(index_of(cell_of(block, 3))));
 }
 
-/// Returns whether cell k of one block may come near cell l of another. Cells past the sheet's edge do not count, nor
-/// do cells close in their cloth, which are judged by how the cloth lies between them.
+/// Returns whether cell k of one block may come near cell l of another. Cells past the sheet's edge do not count, and
+/// neither do cells close to each other in their cloth, which are judged by how the cloth lies between them.
 bool meet(Block one, SelfBox box, int k, Block other, SelfBox other_box, int l, float thickness) {
     ivec2 a = one.at + ivec2(k & 1, k >> 1), b = other.at + ivec2(l & 1, l >> 1);
     bool may = inside(a) && inside(b) && !(one.cloth == other.cloth && self_close(a, b));
@@ -109,9 +109,10 @@ void judge_all_far() {
     FOR_EVERY_FROM(i, first, stride, count, judge_far(candidates[i]))
 }
 
-SelfCloth cloth;  // whose close cells this workgroup looks at
+SelfCloth cloth;  // the cloth whose close cells this workgroup processes
 
-/// Returns where a particle of the cloth's grid lies on the sheet. Beyond the grid its last column or row stands in.
+/// Returns where a particle of the cloth's grid lies on the sheet; beyond the grid, a particle of its last column or
+/// row.
 ivec2 texel_at(ivec2 own) { return cloth.first + min(own, cloth.grid - 1); }
 vec3 at(ivec2 own) { return imageLoad(positions, texel_at(own)).xyz; }
 vec3 moved(ivec2 own) {
@@ -125,7 +126,7 @@ SelfColumn column_moved(ivec2 first) {
     return SelfColumn(moved(first), moved(first + ivec2(0, 1)), moved(first + ivec2(0, 2)), moved(first + ivec2(0, 3)));
 }
 
-/// Returns a column moved on by one row.
+/// Returns a column of particles shifted by one row.
 SelfColumn further(SelfColumn x, vec3 last) { return SelfColumn(x.b, x.c, x.d, last); }
 
 /// Returns the first 3 x 3 of the 4 x 4 particles.
@@ -133,13 +134,13 @@ SelfPatch patch_of(SelfColumns x) {
     return SelfPatch(x.b.b, x.a.b, x.c.b, x.b.a, x.b.c, x.a.a, x.c.a, x.a.c, x.c.c);
 }
 
-/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that the cloth keeps apart.
+/// Returns bits of the pairs for which a cell is responsible (self_close_pair) and that the cloth keeps apart.
 uint kept_apart(SelfColumns x, SelfColumns motions, bool inside) {
     bool flat_there = inside && self_patch_lies_flat(push, cloth, patch_of(x), patch_of(motions));
     return self_close_apart(push, cloth, x, motions) | (flat_there ? (1u << self_neighbour_pairs) - 1u : 0u);
 }
 
-/// Returns bits of the pairs of cells that a cell stands for (self_close_pair) and that exist.
+/// Returns bits of the pairs for which a cell is responsible (self_close_pair) and that exist.
 uint close_pairs_of(ivec2 own) {
     uint bits = 0u;
     for (int k = 0; k < self_close_pairs; ++k) {
@@ -150,13 +151,13 @@ uint close_pairs_of(ivec2 own) {
     return bits;
 }
 
-/// Returns bits of the pairs of cells that a cell stands for and that the way the cloth lies there does not rule out.
+/// Returns bits of the pairs for which a cell is responsible and that the shape of the cloth there does not rule out.
 uint near_pairs(ivec2 own, SelfColumns x, SelfColumns motions) {
     bool inside = own.x + 2 < cloth.grid.x && own.y + 2 < cloth.grid.y;
     return close_pairs_of(own) & ~kept_apart(x, motions, inside);
 }
 
-/// Lists the pairs of `near`, which has self_close_pairs bits for each of some cells beside each other.
+/// Lists the pairs in `near`, which has self_close_pairs bits for each of some adjacent cells.
 void list(ivec2 first, uint near) {
     uint count = uint(bitCount(near)), place = 0u;
     if (count > 0u) place = place_after(atomicAdd(record[0].cell_count, count), count);
@@ -177,7 +178,7 @@ void judge_close() {
     cloth = push.cloth;
     if (cloth_count > 1) cloth = cloths[which];
     bool meets = meetings[which % cloths_each() * (cloths_each() + 1)] != self_meets_not;
-    // The parts have equal length and are counted row by row, so that few lanes of a subgroup have nothing to do.
+    // The parts have equal length and are counted row by row, so that few lanes of a subgroup are idle.
     int parts = (cloth.grid.y - 1) / strip_rows + 1, rows = (cloth.grid.y - 1) / parts + 1;
     int group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x),
         across = (cloth.grid.x - 1) / strip_columns + 1;
@@ -190,7 +191,7 @@ void judge_close() {
         motions[c] = column_moved(ivec2(first + c, y));
     }
     for (;;) {
-        // This is written out, as the driver does not unroll so long a loop.
+        // This is written out, since the driver does not unroll so long a loop.
         uint near = near_pairs(ivec2(first, y), SelfColumns(x[0], x[1], x[2], x[3]),
                                SelfColumns(motions[0], motions[1], motions[2], motions[3]));
         if (strip_columns > 1)

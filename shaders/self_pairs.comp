@@ -1,6 +1,6 @@
-// This pass lists the pairs of primitives that this substep may bring together, among those whose boxes are near each
-// other, and those of them that touch. Particles and triangles fill a list
-// from its begin, edges from its end, so that the passes that go through it know each pair's kind.
+// This pass lists, among the pairs of primitives whose boxes are near each other, those that this substep may bring
+// together, and those of them that touch. Particles and triangles fill a list from its start, edges from its end, so
+// that the passes that process it know each pair's kind.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

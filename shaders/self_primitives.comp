@@ -1,7 +1,6 @@
-// This pass lists the pairs of primitives whose boxes are near each other, among the pairs of cells that are. Particles
-// and triangles fill the list from its begin, edges from its end. It also resets the sums of the impulses to come, and
-// chains what pairs bore by their first corners. It leaves out cloths that `crossed` when they started and
-// still do.
+// This pass lists the pairs of primitives whose boxes are near each other, among the pairs of near cells. Particles and
+// triangles fill the list from its start, edges from its end. It also resets the sums of the impulses to come, and
+// chains what pairs bore by their first corners. It leaves out cloths that `crossed` when they started and still do.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -34,7 +33,7 @@ void chain(int entry) {
 
 #include "include/self_carried.h"
 
-/// A cell has the boxes of its first particle and of the triangles and edges that this owns.
+/// A cell, with the boxes of its first particle and of the triangles and edges that this particle owns.
 struct Cell {
     ivec2 at;
     uint bits;  // bits of the triangles and edges that exist
@@ -42,7 +41,7 @@ struct Cell {
 };
 
 struct Corner {
-    vec3 at, motion;  // place at the substep's start and motion against the carried one, m
+    vec3 at, motion;  // place at the substep's start, and motion relative to the common one, m
 };
 Corner corner_at(ivec2 texel, vec3 displacement) {
     return Corner(imageLoad(positions, texel).xyz, self_relative_motion(displacement, carried_at(texel)));
@@ -62,7 +61,7 @@ Corners corners_of(int place) {
                    corner_at(own + ivec2(0, 1)), corner_at(own + ivec2(1, 1)));
 }
 
-/// A cell without triangles may lie past the last column or row of its cloth and lack corners, so it has no normal.
+/// A cell without triangles may lie past the last column or row of its cloth and lack corners; its normal is zero.
 vec3 normal_of(Corners of) {
     return self_cell_normal((of.bits & 3u) != 0u, of.first.at, of.right.at, of.below.at, of.last.at);
 }
@@ -81,13 +80,13 @@ uint meets(SelfBox one, SelfBox other, float thickness) {
     return self_primitives_meet(one, other, push, thickness) ? 1u : 0u;
 }
 
-/// Returns bits of the triangles of a cell that exist and that another's first particle may meet.
+/// Returns bits of the existing triangles of a cell that another cell's first particle may meet.
 uint triangles_met(Cell one, Cell other, float thickness) {
     uint bits = meets(one.particle, other.upper, thickness) | (meets(one.particle, other.lower, thickness) << 1);
     return bits & other.bits & 3u;
 }
 
-/// Returns bits of the edges of a cell that exist and that edge k of another may meet.
+/// Returns bits of the existing edges of a cell that edge k of another cell may meet.
 uint edges_met(Cell one, int k, SelfBox edge, Cell other, float thickness) {
     uint bits = meets(edge, other.along, thickness) | (meets(edge, other.across, thickness) << 1) |
                 (meets(edge, other.diagonal, thickness) << 2);

@@ -1,6 +1,6 @@
-// This pass gives the particles the velocities that the impulses of contacts make, and moves them by these and by what
-// makes a missing thickness good. Where some cloths `crossed` when they started, it adds the velocity that
-// leads them apart.
+// This pass gives the particles the velocities that the contacts' impulses cause, and moves them by these and by what
+// restores a missing thickness. Where some cloths `crossed` when they started, it adds the velocity that leads them
+// apart.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -27,10 +27,10 @@ layout(set = 0, binding = 10, std430) readonly buffer Led { vec4 led[]; };
 #define SUMS_IN_SLOT 11
 #include "include/self_sums.h"
 
-bool touching;  // whether any pairs touch; else the sums are of an earlier substep
+bool touching;  // some pairs touch; otherwise the sums belong to an earlier substep
 
 bool pushed(int place) {
-    if (crossed) return true;                  // its cloth may be led
+    if (crossed) return true;                  // its cloth may be led apart
     return sum_of(0, place).z_weight.z != 0u;  // some contact holds it
 }
 

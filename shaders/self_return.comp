@@ -1,9 +1,9 @@
 // This pass ends a substep's contact for a cloth. It cuts short every motion that would go farther than was proved to
-// cross nothing. The velocity that a particle came with stays its displacement, and the particle is shifted so that it
-// ends where contact let it: what held it back, or led it apart, is no velocity. In `second_order` the cloth goes on in
-// backward Euler substeps (include/bdf2.h). There, and in a frame's last substep of other methods, the displacement of
-// the substep before is changed as contact has changed this one's, so that the two tell the same acceleration by springs
-// as without contact.
+// cross nothing. The particle's velocity remains its displacement, and its start is shifted so that it ends where
+// contact allows: what held it back, or led it apart, is no velocity. In `second_order` the cloth continues in backward
+// Euler substeps (include/bdf2.h). There, and in a frame's last substep of other methods, the displacement of the
+// substep before is changed in the same way as contact changed this one's, so that the two give the same acceleration
+// by springs as without contact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -20,8 +20,8 @@ CLOTH_CONSTANTS(SelfClothPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D displacement_in;
 TRIPLE_OUT(1, displacement_out);
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacements;   // on the sheet
-layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: what moved a particle
-layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  // of those
+layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer before;      // w: what moved the particle
+layout(set = 0, binding = 4, rgba32f) uniform readonly imageBuffer velocities;  // of these particles
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
 TRIPLE_OUT(6, position_out);
 layout(constant_id = 22) const bool second_order = false;
@@ -37,11 +37,11 @@ layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]
 layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
 
-vec3 carried;  // the member's, read where nothing has branched yet (docs/devices.md)
+vec3 carried;  // the member's, read before anything has branched (docs/devices.md)
 
 struct Motion {
     bool held, cut, pushed, led;
-    vec3 wanted, moved, bounded;  // displacement before contact, after it, and what contact allows of that, m
+    vec3 wanted, moved, bounded;  // displacement before contact, after it, and what contact allows of it, m
     float share;                  // share of the motion that crosses nothing
 };
 
@@ -75,7 +75,7 @@ vec3 velocity_of(int place, Motion motion) {
     return motion.pushed ? pushed : own;
 }
 
-/// Returns how far a particle moves, and counts whether that is less than it would.
+/// Returns how far a particle moves, and counts it if that is less than it would.
 vec3 made_of(Motion motion) {
     if (!motion.cut) return motion.moved;
     ++truncated;
@@ -84,8 +84,8 @@ vec3 made_of(Motion motion) {
     return made;
 }
 
-/// Has the cloth go on in backward Euler substeps. The load spares an atomic, as most particles that come here find the
-/// hold set.
+/// Makes the cloth continue in backward Euler substeps. Reading first avoids an atomic, since most particles that come
+/// here find the hold set.
 void hold_order() {
     if (imageLoad(line_control, ivec2(control_hold, cloth_place())).x < line_hold_contact)
         imageAtomicMax(line_control, ivec2(control_hold, cloth_place()), line_hold_contact);
@@ -111,7 +111,7 @@ void end_motion(ivec2 texel) {
 
 void end_all() { FOR_STRIP_FOUND(texel, push.grid, is_changed(texel), end_motion(texel)) }
 
-/// Counts for the frame what the substep's lists held.
+/// Records in the frame's counts how many entries the substep's lists had.
 void count_lists() {
     record[0].most_pairs = max(record[0].most_pairs, record[0].point_count + record[0].edge_count);
     record[0].most_near = max(record[0].most_near, record[0].near_point_count + record[0].near_edge_count);

@@ -1,6 +1,7 @@
-// This pass runs where there is a new search. It makes the boxes with which cells are looked for in this substep and
-// those to come, which follow the cells' present motion and have a margin, and the tree over them. An invocation has 4 x
-// 4 cells, a workgroup the part of the tree over its cells, and the last workgroup to come to its end what is above.
+// This pass runs when there is a new search. It computes the boxes with which cells are searched for in this substep
+// and later ones, which follow the cells' present motion and have a margin, and the tree over them. An invocation has 4
+// x 4 cells, a workgroup the part of the tree over its cells, and the last workgroup to finish computes the levels
+// above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -17,17 +18,17 @@ layout(set = 0, binding = 5, std430) coherent buffer Kept { SelfBox kept[]; };
 layout(set = 0, binding = 6, std430) buffer Sizes { uvec4 sizes[]; };
 
 const int side = self_tile_side;
-shared SelfBox nodes[side * side * 4 / 3];  // of the levels over a workgroup's cells, each a quarter of the one below
-shared bool is_last;                        // whether this workgroup is the last one
+shared SelfBox nodes[side * side * 4 / 3];  // in the levels over a workgroup's cells, each a quarter of the one below
+shared bool is_last;                        // this workgroup is the last to finish
 
-vec3 first_mean;  // record[0].mean, read where nothing has branched yet (docs/devices.md)
+vec3 first_mean;  // record[0].mean, read before anything has branched (docs/devices.md)
 vec3 mean_at(int place) {
     vec3 mean = first_mean;
     if (member_count > 1) mean = record[member_at(place)].mean.xyz;
     return mean;
 }
 
-/// Keeps the box of a node in the level whose first box is the `first`. Past the sheet's edge there is none.
+/// Stores the box of a node in the level whose first box is `first`; nodes past the sheet's edge do not exist.
 void keep(int first, ivec2 size, ivec2 node, SelfBox box) {
     if (node.x < size.x && node.y < size.y) kept[first + node.y * size.x + node.x] = box;
 }
@@ -54,7 +55,7 @@ SelfBox block_box(ivec2 block) {
     return box;
 }
 
-/// Makes the levels over this invocation's cells, then those over the workgroup's, up to the one where that is one box.
+/// Computes the levels over this invocation's cells, then those over the workgroup's, up to the one with a single box.
 /// Returns the index of that level's first box.
 int make_tile(ivec2 tile) {
     int lane = int(gl_LocalInvocationIndex), across = side, below = 0;
@@ -79,7 +80,7 @@ int make_tile(ivec2 tile) {
     return first;
 }
 
-/// Makes a node of the level whose first box is the `own`, over the up to four nodes below it.
+/// Computes a node, in the level whose first box is `own`, from the up to four nodes below it.
 void make_node(ivec2 node, ivec2 size, int own, ivec2 below, int first) {
     ivec2 corner = 2 * node;
     bool right = corner.x + 1 < below.x;
@@ -92,7 +93,7 @@ void make_node(ivec2 node, ivec2 size, int own, ivec2 below, int first) {
     keep(own, size, node, box);
 }
 
-/// Makes all levels above the workgroups' parts, the highest of which has its boxes from the `first` on.
+/// Computes all levels above the workgroups' parts, whose highest level begins with the box `first`.
 void make_rest(int first, int last) {
     for (int level = self_tile_top + 1; level <= last; ++level) {
         ivec2 below = self_tree_size(push.grid, level - 1), size = self_tree_size(push.grid, level);

@@ -1,6 +1,7 @@
-// This pass copies the shadow map for fragments: every entry holds a texel's depth and those of the three texels right
-// of it. A surface then takes the sixteen texels that it looks at with four loads (include/shadow_map.h), which pays as
-// fragments are many times as many as texels. An invocation goes along part of a row and loads each texel once.
+// This pass copies the shadow map for fragments: every entry holds a texel's depth and those of the three texels to its
+// right. A surface then reads the sixteen texels that it needs with four loads (include/shadow_map.h), which pays
+// because there are many times as many fragments as texels. An invocation goes along part of a row and loads each texel
+// once.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster_types.h"

@@ -1,6 +1,6 @@
-// This plain kernel relaxes the springs of one direction and parity with an invocation per spring. Such springs share
-// no particle. Where `masked`, the spring shares come from an image (holes, cuts). It may store the springs' tension, for the
-// next iteration of the substep and for the stretch error.
+// This kernel relaxes the springs of one direction and parity with an invocation per spring. Such springs share no
+// particle. Where `masked`, the spring shares come from an image (holes, cuts). It may store the springs' tension, for
+// the next iteration of the substep and for the stretch error.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

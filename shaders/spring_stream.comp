@@ -1,6 +1,6 @@
-// This stream is a step of all springs, to the bits of the eight passes of spring.comp. Each subgroup goes down the
-// rows of a strip of columns, two rows at a time, and keeps in registers the rows that have passes left. With rows 2k
-// and 2k + 1 loaded, every pass takes the rows whose turn it is:
+// This kernel is a step of all springs, with the same bits as the eight passes of spring.comp. Each subgroup goes down
+// the rows of a strip of columns, two rows at a time, and keeps in registers the rows that have passes left. With rows
+// 2k and 2k + 1 loaded, every pass takes the rows whose turn it is:
 //
 //   row          2k-5   2k-4   2k-3   2k-2   2k-1    2k    2k+1
 //   along                                            *      *
@@ -12,8 +12,8 @@
 //                o------o
 //
 // Then the first two rows are done. A ghost beside an invocation's columns is the first column of the invocation on the
-// right; its displacement goes back there by shuffle. Where `masked`, the spring shares come from an image. The tension is
-// stored for the stretch error, the next iteration or the release of a pin (include/iteration_tension.h).
+// right; its displacement goes back there by shuffle. Where `masked`, the spring shares come from an image. The tension
+// is kept for the stretch error, the next iteration or the release of a pin (include/iteration_tension.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -40,7 +40,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D spring_shares;
 layout(constant_id = 0) const int directions = 15;  // bit d: there are springs of direction d
 
 const int columns = spring_stream_columns, strip_width = spring_stream_width, strip_halo = spring_stream_halo, kept_rows = 5,
-          window = kept_rows + 2, lead = 6;  // rows above a band that what moves in it depends on
+          window = kept_rows + 2, lead = 6;  // rows above a band on which the motion in it depends
 
 #include "include/strip_rows.h"
 
@@ -61,8 +61,8 @@ bool exists(ivec2 owner, ivec2 offset) {
            owner.x + offset.x < push.grid.x;
 }
 
-/// Relaxes the spring whose first particle is `owner`. Where the grid has none, nothing moves, not even a zero's sign.
-/// Takes and returns the spring's tension.
+/// Relaxes the spring whose first particle is `owner`. A spring that the grid lacks moves nothing, not even a zero's
+/// sign. Takes and returns the spring's tension.
 float relax(inout Particle first, inout Particle second, ivec2 owner, ivec2 offset, int channel, float tension) {
     vec3 edge = spring_edge(first.position, second.position, first.displacement, second.displacement);
     precise float weight_sum = first.weight + second.weight;
@@ -130,7 +130,7 @@ void relax_down_left(inout Particle upper[columns + 1], inout Particle lower[col
 }
 
 void main() {
-    Particle rows[window][columns + 1];  // rows of the figure above, from the left
+    Particle rows[window][columns + 1];  // the rows of the figure above, from the left
     for (int r = 0; r < window; ++r)
         for (int c = 0; c <= columns; ++c) rows[r][c] = Particle(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
     band = row_band();

@@ -1,8 +1,7 @@
-// This kernel is a step of all springs, to the bits of the eight passes of spring.comp, for devices that run many
-// invocations: a workgroup holds a tile of particles in shared memory and takes the passes in turn. The outermost
+// This kernel is a step of all springs, with the same bits as the eight passes of spring.comp, for devices that run
+// many invocations: a workgroup holds a tile of particles in shared memory and takes the passes in turn. The outermost
 // particles lack neighbours, so their error spreads inwards by one particle a pass; therefore tiles overlap by 2 *
-// `halo`, and one that holds the whole cloth needs none. The constants are those of
-// spring_stream.comp.
+// `halo`, and one that holds the whole cloth needs none. The constants are those of spring_stream.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -28,7 +27,7 @@ layout(constant_id = 0) const int directions = 15;  // bit d: there are springs 
 layout(constant_id = 1) const int halo = 0;
 #include "include/tile.h"
 
-// The tile's particles have their position and inverse mass in one array and their displacement in the other.
+// The tile's particles have position and inverse mass in one array and displacement in the other.
 shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
 

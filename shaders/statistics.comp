@@ -1,6 +1,6 @@
-// This pass takes the statistics of a cloth, with an invocation and a record per statistics_rows particles of a column.
-// A particle answers for the springs whose first particle it is. Where `masked`, spring shares and masses come
-// from images (holes, cuts). A cloth that `rests_bent` bends and rests in the shape that it starts in.
+// This pass computes the statistics of a cloth, with an invocation and a record for each statistics_rows particles of a
+// column. A particle includes the springs that it owns. Where `masked`, spring shares and masses come from images
+// (holes, cuts). A cloth that `rests_bent` bends, and rests in the shape in which it starts.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -35,13 +35,13 @@ layout(constant_id = 28) const bool has_bend = false;
 
 vec4 reference_of_cloth() { return imageLoad(statistics_reference, ivec2(0, cloth_place())); }
 
-/// The inverse mass w would not do, since held particles have a mass too.
+/// Returns a particle's mass share. The inverse mass w would not do, since held particles have a mass too.
 float mass_share_of(ivec2 texel) {
     if (masked) return LOAD(mass_share, texel).x;
     return border_mass_share(texel, push.grid);
 }
 
-/// The positions around a particle, and of the particle itself.
+/// The positions of a particle and of its neighbours.
 struct Neighbours {
     vec4 here;
     vec3 right, below_left, below, below_right;
@@ -86,13 +86,14 @@ Edge sum_of(Edge one, Edge other, float sign) {
     return Edge(rest, now);
 }
 
-/// The edge, or none where the particles do not hang together.
+/// Returns the edge, or zero where the particles are not connected.
 Edge if_there(Edge edge, float share) {
     bool is_there = share > 0.0f;
     return Edge(is_there ? edge.rest : vec3(0.0f), is_there ? edge.now : vec3(0.0f));
 }
 
-/// How far an element is beyond its rest, m; `row` and `column`: the tangents of its place (include/rest_bend.h).
+/// Returns how far an element deviates from its rest, m; `row` and `column`: the tangents at its place
+/// (include/rest_bend.h).
 vec3 beyond_rest_in(Edge difference, Edge row, Edge column) {
     vec3 target = vec3(0.0f);
     if (rests_bent) {
@@ -102,8 +103,8 @@ vec3 beyond_rest_in(Edge difference, Edge row, Edge column) {
     return beyond_rest(difference.now, target);
 }
 
-/// Adds the bending elements whose middle a particle is, and the twist of the cell whose upper left corner it is. Those
-/// that leave the grid have no share.
+/// Adds the bending elements whose middle is a particle, and the twist of the cell whose upper left corner it is.
+/// Elements that leave the grid have a share of 0.
 StatisticsRecord with_bending(StatisticsRecord record, ivec2 texel) {
     ivec2 left = texel - ivec2(1, 0), up = texel - ivec2(0, 1), right = texel + ivec2(1, 0),
           below = texel + ivec2(0, 1), across = texel + ivec2(1, 1);
@@ -135,8 +136,8 @@ StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     record = with_spring(record, texel, at, around.below_left, 3, shares.w, 0.0f);
     if (has_bend) record = with_bending(record, texel);
     if (!collides) return record;
-    // This is the deepest contact that the collision pass would find. It does not move held particles, so those do not
-    // count.
+    // This is the deepest contact that the collision pass would find. That pass does not move held particles, so they
+    // do not count.
     vec3 rest = vec3(0.0f, 0.0f, 0.0f);
     bool far = false;
     vec2 own = skin_of(placed(texel).y * push.grid.x + texel.x, vec2(reference_of_cloth().w, 0.0f));

@@ -1,5 +1,5 @@
-// This pass joins the records of each cloth, statistics_chunk to one: lane l takes every 64th of them from the l-th on,
-// then a tree joins the lanes.
+// This pass joins the records of each cloth, statistics_chunk of them into one: lane l takes every 64th from the l-th
+// on, then a tree joins the lanes.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

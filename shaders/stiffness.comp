@@ -1,4 +1,4 @@
-// This pass gives the springs of a cloth whose stiffness changes their shares for a frame, an invocation per particle.
+// This pass scales the spring shares of a cloth whose stiffness changes, for a frame, with an invocation per particle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,5 +1,5 @@
-// This pass finds how hard the springs along rows and columns are pulled at the end of a frame, over what they bear, and
-// counts those that bear too much. Where `masked`, springs that are gone are left out.
+// This pass computes the loads of the springs along rows and columns at the end of a frame, relative to what they bear,
+// and counts those above their limit. Where `masked`, springs that are gone are left out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -12,7 +12,7 @@ PUSH_CONSTANTS(TearPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D tear_limits;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D tear_loads;  // x: of the row's spring, y: the column's
-layout(set = 0, binding = 3, std430) buffer Count { uint count[]; };         // springs that bear too much
+layout(set = 0, binding = 3, std430) buffer Count { uint count[]; };         // number of springs above their limit
 layout(constant_id = 21) const bool masked = false;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D spring_shares;
 #define LOAD(name, texel) imageLoad(name, texel)
@@ -25,7 +25,7 @@ vec4 shares_of(ivec2 at) {
     return vec4(1.0f);
 }
 
-/// 0 outside the grid.
+/// Returns the summed strains of a cell's diagonals; 0 outside the grid.
 float cell_diagonals(ivec2 cell) {
     if (cell.x < 0 || cell.y < 0 || cell.x + 1 >= push.grid.x || cell.y + 1 >= push.grid.y) return 0.0f;
     ivec2 right = cell + ivec2(1, 0);

@@ -1,6 +1,6 @@
-// This pass finds the tension of the stretch springs that explicit steps gather, as the extension that it would cause,
-// with which the statistics compare the strain. Every texel that owns a spring is written. A cloth that has its
-// `own_rest` has the springs' lengths at rest in an image.
+// This pass computes the tension of the stretch springs that explicit steps gather, as the extension that it would
+// cause, with which the statistics compare the strain. Every texel that owns a spring is written. A cloth with
+// `own_rest` has the rest lengths of its springs in an image.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"

@@ -1,5 +1,5 @@
-// This pass takes particles back that are farther from their anchors than the cloth reaches. Anchors are held particles
-// (w = 0), which it does not move; one that was released holds nobody.
+// This pass moves particles back that are farther from their anchors than the cloth reaches. Anchors are held particles
+// (w = 0), which it does not move; an anchor that was released holds no particle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -28,7 +28,7 @@ vec3 tether_edge(vec3 start, vec3 displacement, int anchor) {
     return anchor >= 0 && held.w == 0.0f ? edge : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Returns whether a tether pulls at a particle. The second tether pulls after the first, so where neither does now,
+/// Returns whether a tether pulls at a particle. The second tether pulls after the first, so if neither pulls now,
 /// neither will.
 bool is_pulled(ivec2 texel) {
     vec4 start = LOAD(position, texel);

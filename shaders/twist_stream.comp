@@ -1,7 +1,7 @@
-// This stream is a step of all twist, to the bits of the four passes of twist.comp. Each subgroup goes down the rows of
-// a strip of columns, two rows at a time. With rows 2k and 2k + 1 loaded, it relaxes the cells between those two, even
-// columns first, then those between the rows 2k - 1 and 2k, which are done then. `masked` and `second_order` are those of
-// twist.comp.
+// This kernel is a step of all twist, with the same bits as the four passes of twist.comp. Each subgroup goes down the
+// rows of a strip of columns, two rows at a time. With rows 2k and 2k + 1 loaded, it relaxes the cells between those
+// two, even columns first, then those between the rows 2k - 1 and 2k, which are done then. `masked` and `second_order`
+// are those of twist.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -28,7 +28,7 @@ layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 
 const int columns = twist_columns, strip_width = twist_width, strip_halo = twist_halo,
-          lead = 2;  // rows above a band that what moves in it depends on
+          lead = 2;  // rows above a band on which the motion in it depends
 
 #include "include/strip_rows.h"
 
@@ -40,7 +40,7 @@ float share_of(ivec2 cell) {
     return 1.0f;
 }
 
-/// Relaxes the cell between four particles, the first of which is `corner`. Where the grid has no cell, nothing moves.
+/// Relaxes the cell between four particles, the first of which is `corner`. A cell that the grid lacks moves nothing.
 void relax(inout Particle upper_left, inout Particle upper_right, inout Particle lower_left, inout Particle lower_right,
            ivec2 corner) {
     bool is_there =

@@ -1,4 +1,4 @@
-// This kernel is a step of all twist, to the bits of the four passes of twist.comp, for devices that run many
+// This kernel is a step of all twist, with the same bits as the four passes of twist.comp, for devices that run many
 // invocations: a workgroup holds a tile of particles in shared memory (include/tile.h) and takes the colours in turn,
 // each cell by the invocation of its upper left particle. What is missing beyond a tile's border reaches inwards by one
 // particle a colour. `masked` and `second_order` are those of twist.comp.
@@ -29,7 +29,7 @@ layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D line_control;
 layout(constant_id = 0) const int halo = 0;
 #include "include/tile.h"
 
-// The tile's particles have their position and inverse mass in one array and their displacement in the other.
+// The tile's particles have position and inverse mass in one array and displacement in the other.
 shared vec4 held[tile_width * tile_width];
 shared vec3 moved[tile_width * tile_width];
 

@@ -11,10 +11,10 @@
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
-layout(constant_id = 0) const bool advance = false;    // the positions still lack the last substep's displacement
-layout(constant_id = 1) const bool weighs = false;     // behind each wind is what gravity is more than at the start
-layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation takes
-layout(constant_id = 21) const int strip_columns = 1;  // columns that it takes, most_columns at most
+layout(constant_id = 0) const bool advance = false;    // the positions lack the last substep's displacement
+layout(constant_id = 1) const bool weighs = false;     // each wind is followed by the change of gravity since the start
+layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation processes
+layout(constant_id = 21) const int strip_columns = 1;  // columns that it processes, most_columns at most
 const int most_columns = 2;
 CLOTH_CONSTANTS(WindPush)
 #define TOGETHER
@@ -33,8 +33,8 @@ struct Member {
 struct Row {
     Member members[most_columns + 2];
 };
-/// The triangles between two rows give each of their corners this force. Cells count from the one before the
-/// invocation's first particle on.
+/// The force that the triangles between two rows give to each of their corners. Cells are counted from the one before
+/// the invocation's first particle.
 struct Shares {
     WindForce upper[most_columns + 1], lower[most_columns + 1];
 };
@@ -42,7 +42,7 @@ struct Shares {
 vec3 wind_velocity, more_gravity;
 int first_column;
 
-/// Loads a row; past the grid's border it loads the border again.
+/// Loads a row; past the grid's border, the row on the border again.
 Row load_row(int y) {
     Row row;
     for (int c = 0; c < strip_columns + 2; ++c) {
@@ -62,7 +62,7 @@ uint triangles_of(ivec2 cell) {
     return 3u;
 }
 
-/// A triangle that does not exist adds nothing to a sum, not even a zero's sign.
+/// Returns a triangle's share; a triangle that does not exist adds nothing to a sum, not even a zero's sign.
 WindForce share_of(bool exists, Member a, Member b, Member c) {
     WindForce share = wind_share(a.position, b.position, c.position, a.displacement, b.displacement, c.displacement,
                                  push.inverse_step, wind_velocity, push.drag_coefficient, push.lift_coefficient,

@@ -22,7 +22,7 @@ double wanted_compliance(double constant, const ClothGeometry& cloth, const Meth
     return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
 }
 
-/// Returns the compliance of an element that is softened to `share` of its constant, less what an iteration adds.
+/// Returns the compliance of an element that is softened to `share` of its constant, minus what one pass adds.
 float pass_compliance(double wanted, double share, double pass) {
     return static_cast<float>(std::max(wanted / share - pass, 1e-20));
 }
@@ -36,7 +36,7 @@ void add_twists(const ClothGeometry& cloth, float compliance, float compliance_b
     }
 }
 
-/// Adds what other steps of bending need of cloth that rests bent and uses a share of its stiffness.
+/// Adds the steps that bending needs in cloth that rests bent and uses a share of its stiffness.
 void add_rest_bend(const ClothGeometry& cloth, const MethodSettings& settings, double share, double bdf2_factor,
                    MethodScheme& scheme) {
     if (!cloth.rests_bent()) return;
@@ -72,7 +72,7 @@ void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& setti
     for (const double constant : cloth.stiffness_constant.bend)
         if (constant > 0) share = std::min(share, wanted_compliance(constant, cloth, settings) / bend_pass_compliance);
     add_rest_bend(cloth, settings, share, 1, scheme);
-    // All elements are softened alike, so that the cloth stays equally stiff in every direction.
+    // All elements are softened by the same share, so that the cloth stays equally stiff in every direction.
     for (const BendPass& pass : bend_passes(cloth.grid.size())) {
         const auto axis = static_cast<std::size_t>(pass.axis);
         const double constant = cloth.stiffness_constant.bend[axis];

@@ -11,22 +11,22 @@ struct BendStiffness {
     BendStiffness times(double factor) const { return {factor * row, factor * column, factor * twist}; }
 };
 
-/// Returns the push constants of the step that finds what cloth that rests bent is at rest, where elements have so much
-/// stiffness in an Euler step and in one of BDF2.
+/// Returns the push constants of the step that computes the rest positions of bending elements in cloth that rests
+/// bent. The two arguments are the elements' stiffness in an Euler step and in a BDF2 step.
 glsl::BendTargetPush bend_target_constants(const ClothGeometry& cloth, bool gathers, const BendStiffness& euler,
                                            const BendStiffness& bdf2);
 
-/// Adds the elements of both axes, then the cells' twist, to the steps taken once, for relaxation. What a sweep cannot
-/// follow is softened, and said.
+/// Adds the bending elements of both axes, then the twist of the cells, to the steps that relaxation takes once per
+/// substep. Stiffness that one pass cannot follow is softened, and a compromise is noted.
 void add_bend_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 
-/// A step multiplies the compliance m/(t h^2) of a backward Euler step by these.
+/// Factors on the compliance m/(t h^2) that a step has in backward Euler.
 struct StepFactors {
     double bdf2;   ///< for a BDF2 step
-    double least;  ///< for those steps whose stiffness counts as followed
+    double least;  ///< for the steps by which stiffness counts as followed
 };
 
-/// Adds the cells' twist alone, because the lines bend by themselves.
+/// Adds the cells' twist alone, because the line solve includes bending along lines.
 void add_twist_relaxation(const ClothGeometry& cloth, const MethodSettings& settings, const StepFactors& factors,
                           MethodScheme& scheme);
 

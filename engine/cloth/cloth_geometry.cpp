@@ -32,7 +32,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       bend(cloth.stiffness.bend),
       stiffness_constant(stiffness_constants(cloth.stiffness, spacing)),
       shows_crumbs(std::ranges::any_of(scene.cutters, &Cutter::crumbs)) {
-    // An axis of two particles has no elements; explicit steps need not mind them.
+    // An axis of two particles has no bending elements, so explicit steps may ignore their stiffness.
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
     place(cloth);

@@ -1,5 +1,5 @@
-// No solver method and no cut changes these numbers of a cloth: its grid, masses, wanted stiffness, the flat state that
-// it starts in, its pins and tethers.
+// The numbers of a cloth that neither solver method nor cut changes: its grid, masses, wanted stiffness, the state in
+// which it starts, its pins and tethers.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace drape {
 
-/// Something that a scene does not need and therefore does not get.
+/// Something that the scene does not need, so no work is done for it.
 struct SkippedWork {
     std::string what, reason;
 };
@@ -30,17 +30,18 @@ struct DynamicPin {
 };
 
 struct ClothGeometry {
-    /// `keeps_masks` makes the masks of a whole cloth images too.
+    /// `keeps_masks`: a whole cloth, too, gets its masks as images.
     ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks);
 
     std::string name;
     Grid grid;
-    bool stiffens;          ///< keys change its stiffness: a step gives its spring shares their factor in every frame
+    bool stiffens;  ///< keys change its stiffness: in every frame a step multiplies its spring shares by their factor
     float start_stiffness;  ///< that factor in frame 0
-    bool starts_masked;     ///< holes, maps, a rest shape or such keys: spring shares are images from the start
+    bool
+        starts_masked;  ///< it has holes, maps, a rest shape or stiffness keys: spring shares are images from the start
     Placement placement;
     bool is_given;                          ///< the start is a given shape, not the placed one
-    double start_strain;                    ///< largest magnitude of the strain of a spring along a row or column
+    double start_strain;                    ///< the largest absolute strain of a spring along a row or column
     std::array<double, 2> spacing;          ///< m along columns, rows
     double inner_mass;                      ///< kg of a particle with four cells
     double damping;                         ///< 1/s
@@ -48,19 +49,21 @@ struct ClothGeometry {
     std::vector<Vec3> velocities;           ///< m/s at the start by particle; empty: `velocity`
     double start_speed;                     ///< m/s: the largest
     bool rigid;                             ///< stretch and shear springs are inextensible
-    float compression;                      ///< share of their stiffness where they are pushed together
+    float compression;                      ///< share of their stiffness that springs have under compression
     double bend;                            ///< N m
     StiffnessConstants stiffness_constant;  ///< wanted by the scene
 
-    // These have one element per particle, row by row.
+    // The following lists have one element per particle, row by row.
     std::vector<glsl::vec4> position;  ///< at the start; xyz m; w: relative inverse mass, 0 = pinned or without a cell
-    std::vector<float> free_weight;    ///< w without pins
-    /// x: thickness kept from colliders, m; y: square root of the friction coefficient. Empty: they are the cloth's.
+    std::vector<float> free_weight;    ///< the relative inverse masses without pins
+    /// x: thickness kept from colliders, m; y: square root of the friction coefficient. Empty: every particle has the
+    /// cloth's.
     std::vector<glsl::vec2> skin;
-    /// Lengths of the springs that a particle owns at rest over those of flat cloth, by direction; empty: 1.
+    /// For each particle, the rest lengths of the springs that it owns, divided by those of flat cloth, by direction;
+    /// empty: 1.
     std::vector<glsl::vec4> rest_scales;
-    std::vector<glsl::ParticleTethers> tethers;  ///< none unless the scene has them and the cloth pins
-    /// Its springs along row and column bear this much before they tear (cloth/tear.h); empty: everything.
+    std::vector<glsl::ParticleTethers> tethers;  ///< empty unless the scene has tethers and the cloth has pins
+    /// The load at which the springs along row and column tear (cloth/tear.h); empty: they never tear.
     std::vector<glsl::vec4> tear_limits;
 
     std::vector<DynamicPin> dynamic_pins;
@@ -71,14 +74,14 @@ struct ClothGeometry {
 
     /// Returns the unit direction of growing column (axis 0) or row at a particle as it starts.
     Vec3 start_direction(std::uint32_t particle, std::size_t axis) const;
-    /// Returns the length at rest, m, of a spring that `particle` owns, as the device computes it from that on flat
+    /// Returns the rest length, m, of a spring that `particle` owns, as the device computes it from the length on flat
     /// cloth.
     float rest_length(float flat, std::size_t particle, std::size_t direction) const;
     /// Returns whether bending, too, is at rest in the shape that the cloth starts in.
     bool rests_bent() const { return bend > 0 && !rest_scales.empty(); }
-    /// Returns the energy, J, that bending stores in the shape that it starts in, as if all of its cells were there.
+    /// Returns the energy, J, that bending stores in the shape in which the cloth starts, as if no cell were missing.
     double start_bending() const;
-    /// Returns the diagonal of the cloth at rest, m, or more.
+    /// Returns the length, m, of the cloth's diagonal at rest, or more.
     float reach() const;
 
   private:

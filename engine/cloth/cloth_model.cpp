@@ -52,7 +52,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
     };
     residual = {grid.size(), {rest_length(0), rest_length(1)}, compression};
     const Wind& w = scene.wind;
-    const double half_density = air ? 0.5 * w.air_density : 0;  // gravity alone may change, without air
+    const double half_density = air ? 0.5 * w.air_density : 0;  // without air, the pass only adds the change of gravity
     wind = {grid.size(),
             0,
             static_cast<float>(1.0 / h),
@@ -62,7 +62,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
             0,
             static_cast<float>(inner_mass),
             0};
-    // Contacts shallower than a few roundings of the coordinates cannot be improved by another round.
+    // Another round cannot improve contacts that are shallower than a few roundings of the coordinates.
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
                   static_cast<float>(2.4e-7 * largest_coordinate(cloth)), static_cast<float>(recovery_speed * h)},
                  grid.size(),

@@ -1,5 +1,5 @@
-// One cloth of a scene is ready to be simulated: its geometry and what the scene's method makes of it. Both the device
-// and the C++ twin start from exactly these floats, and neither changes them: CutTopology has what a cut changes.
+// One cloth of a scene, ready for simulation: its geometry and the constants of the scene's method. The device and the
+// C++ twin both start from exactly these floats, and neither changes them; CutTopology holds what a cut changes.
 #pragma once
 
 #include "cloth/method.h"
@@ -9,19 +9,21 @@
 namespace drape {
 
 struct ModelOptions {
-    /// false keeps the exact skips' work (masks of whole cloths, tensions of single iterations) to prove that skipping
+    /// false: do the work of the exact skips (masks of whole cloths, tensions of single iterations), to prove that
+    /// skipping changes no bit.
     /// changes no bit.
     bool skip = true;
-    DeviceKind device = DeviceKind::cpu;  ///< for this `auto` chooses, and methods leave out what others do cheaper
+    DeviceKind device = DeviceKind::cpu;  ///< the device for which `auto` chooses, and whose costs decide which steps a
+                                          ///< method leaves out
     bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
-    bool air = false;                     ///< there is air though the scene has no wind: an ensemble's actions move it
+    bool air = false;  ///< there is air even if the scene has no wind, because an ensemble's actions may move it
 };
 
 /// Contact resolves an overlap that it did not see coming (cloth that starts inside a collider) at this speed, m/s:
 /// slow enough to leave little speed and elastic energy behind (a sheet that starts across a ball).
 inline constexpr double recovery_speed = 0.1;
 
-/// Returns the largest coordinate that the cloth is expected to have, m.
+/// Returns an estimate of the largest coordinate of the cloth, m.
 double largest_coordinate(const Cloth& cloth);
 
 struct ClothModel : ClothGeometry {
@@ -29,26 +31,26 @@ struct ClothModel : ClothGeometry {
     ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options = {});
 
     double substep_length;  ///< s
-    /// An edge of the cloth is at most so long, m, where it can meet that of a box or a mesh
-    /// (shaders/collider_edges.comp). 0: the scene has neither, the cloth's contact is of particles, or its thickness
-    /// keeps everything clear.
+    /// The largest length, m, of an edge of the cloth that can meet an edge of a box or a mesh
+    /// (shaders/collider_edges.comp). 0: the scene has neither, the cloth's contact is that of particles alone, or its
+    /// thickness keeps its edges clear.
     float edge_reach = 0;
-    std::size_t member = 0;         ///< number of its scene among those of the model
-    std::size_t collider_list = 0;  ///< its particles are kept from this list of SimulationModel::kept_colliders
+    std::size_t member = 0;         ///< which of the model's scenes the cloth belongs to
+    std::size_t collider_list = 0;  ///< contact keeps its particles out of this list of SimulationModel::kept_colliders
     MethodScheme scheme;
-    glsl::WindPush wind;            ///< substep is set per substep
-    glsl::CollisionPush collision;  ///< first is set per substep
+    glsl::WindPush wind;            ///< its member `substep` is set in each substep
+    glsl::CollisionPush collision;  ///< its member `first` is set in each substep
     glsl::ResidualPush residual;    ///< constants of the check between iterations
-    /// Returns the skin of a particle, where all have the cloth's too.
+    /// Returns the skin of a particle, including where all particles have the cloth's.
     glsl::vec2 skin_of(std::size_t particle) const {
         return skin.empty() ? glsl::vec2{collision.contact.x, collision.contact.y} : skin[particle];
     }
-    /// Returns `collision` with the reach of edges for the thickness.
+    /// Returns `collision` with the reach of edges in the place of the thickness.
     glsl::CollisionPush collider_edges() const;
 
     /// Returns the displacement of every particle at the start, 0 where pinned, row by row.
     std::vector<glsl::vec4> start_displacement() const;
-    /// Returns h times the velocity, less that displacement.
+    /// Returns, for every particle, h times the velocity minus the start displacement.
     std::vector<glsl::vec4> start_excess() const;
 
   private:

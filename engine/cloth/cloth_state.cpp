@@ -75,7 +75,7 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Shaders see these fields as images and, where they are `buffered`, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-/// Returns the rows up to the cells.
+/// Returns the rows of the table before the cells.
 std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -93,7 +93,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::position_remainder_spare, "position remainder spare", stored, vector, frame, gathers, particles},
         {Field::displacement_remainder_spare, "displacement remainder spare", stored, vector, frame, gathers,
          particles},
-        // The scratch is the device's, not the frame's: an invocation reads what it wrote itself, and nothing in it
+        // The scratch belongs to the device, not to the frame: an invocation reads only what it wrote itself, and
+        // nothing outlives a pass.
         // outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
@@ -126,7 +127,7 @@ std::vector<FieldRow> motion_rows() {
     };
 }
 
-/// Returns the rows from the tensions on.
+/// Returns the rows of the table from the tensions on.
 std::vector<FieldRow> other_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -145,7 +146,7 @@ std::vector<FieldRow> other_rows() {
          particles},
         {Field::residuals, "residuals", buffer, layout_of<glsl::ResidualRecord>(), frame, adaptive, residual_list},
         {Field::iterations, "iterations", buffer, sizes, device, adaptive, iteration_list},
-        // These sizes have no start, since the solver knows them only once it has added the passes.
+        // These sizes have no initial value, since the solver knows them only after it has added the passes.
         {Field::iteration_sizes, "iteration sizes", buffer, sizes, constant, adaptive, size_list},
         {Field::triangles, "triangles", buffer, integer, constant, drawn,
          [](Context c) { return FieldExtent{draw_list_room(c, c.topology.indices().size())}; },

@@ -1,5 +1,5 @@
-// The state of a cloth is a table with a row per field (cloth/state_row.h). Declaring, uploading, carrying over a cut,
-// the C++ twin's arrays and the comparison of the two are loops over these rows. Pure.
+// The state of a cloth is a table with a row per field (cloth/state_row.h). Loops over these rows declare and upload
+// the fields, carry them over a cut, make the C++ twin's arrays and compare the two. Pure.
 #pragma once
 
 #include <cstddef>
@@ -69,14 +69,14 @@ enum class Field : std::uint8_t {
 };
 inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::pin_motions) + 1;
 
-/// The purposes of a frame beside simulating, which need fields of their own.
+/// What a frame does beside simulating, since some fields exist for it alone.
 struct FrameNeeds {
     bool drawing = false;     ///< needs triangles and normals
     bool statistics = false;  ///< needs the tension of the stretch springs
     bool inspection = false;  ///< keeps what passes hand each other, so that each can run alone
 };
 
-/// The functions of a row get this.
+/// The argument of the functions of a row.
 struct FieldContext {
     const SimulationModel& model;
     const ClothModel& cloth;
@@ -86,20 +86,19 @@ struct FieldContext {
 
 /// The resource of a field is called "<cloth>/<name>".
 using FieldRow = StateRow<Field, FieldContext>;
-/// Returns whether cloths that are simulated together (cloth/together.h) have the field in one image.
+/// Returns whether cloths that are simulated together (cloth/together.h) share one image for this field.
 inline bool lies_together(const FieldRow& row) { return row.is_image(); }
 
 /// Returns the table, in the order of Field.
 std::span<const FieldRow> cloth_fields();
 inline const FieldRow& row_of(Field field) { return cloth_fields()[static_cast<std::size_t>(field)]; }
-/// Returns the field that shaders call by this name, if there is one.
+/// Returns the field with this name in shaders, if there is one.
 std::optional<Field> field_called(std::string_view variable);
 /// Returns the field with the tension of the springs of one direction (engine/cloth/directions.h).
 Field tension_of(std::size_t direction);
 Field tension_spare_of(std::size_t direction);
 
-/// Returns the capacity of a draw list of `count` elements: it grows in powers of two, so that few cuts need new
-/// buffers.
+/// Returns the capacity of a draw list for `count` elements. It is a power of two, so that few cuts need new buffers.
 std::size_t draw_list_capacity(std::size_t count);
 /// Returns the size of an image with two texels for each particle of the lines of any direction, filled up to whole
 /// workgroups of lines.

@@ -1,5 +1,5 @@
-// The device (solver/statistics_pass.h) and the twin (twin/statistics.h) reduce a cloth's state to a record; here
-// its numbers get their units.
+// The device (solver/statistics_pass.h) and the twin (twin/statistics.h) reduce a cloth's state to a record. These
+// functions turn the record's numbers into ones with units.
 #pragma once
 
 #include "cloth/simulation_model.h"
@@ -8,7 +8,7 @@
 
 namespace drape {
 
-/// Returns what a state of this cloth is reduced with; colliders are those of the frame's last substep.
+/// Returns the constants for the reduction of this cloth's state; the colliders are those of the frame's last substep.
 glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothModel& cloth);
 
 /// Returns in xyz the point that positions are summed relative to, m, in w the thickness, m.
@@ -17,8 +17,8 @@ glsl::vec4 statistics_reference(const ClothModel& cloth);
 /// Returns the mass per particle, 1 = an inner particle's: the contents of the mass image of a masked cloth.
 std::vector<float> mass_shares(const ClothModel& cloth);
 
-/// Its potential energy is that of the frame's gravity. Frame 0 is given: no solver has put a force on it, so it has no
-/// stretch error.
+/// Returns the statistics with units; the potential energy uses the frame's gravity. Frame 0 is given by the scene: no
+/// solver has applied a force, so it has no stretch error.
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
                                  const glsl::StatisticsRecord& record, std::uint32_t frame = 1);
 

@@ -7,7 +7,7 @@ namespace drape {
 
 namespace {
 
-/// Runs of fewer substeps are so far from all others in contact that their distances tell nothing of those.
+/// In contact, runs with fewer substeps are so far from all others that their distances say nothing about the others.
 constexpr std::uint32_t least_companion = 4;
 
 bool has_more(const Method& method) { return method.trust == Method::Trust::resolves; }

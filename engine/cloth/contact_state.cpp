@@ -112,7 +112,7 @@ std::uint32_t borne_count(std::span<const std::byte> bytes) {
 
 namespace {
 
-/// Corners name column and row in 16 bits each.
+/// Each corner stores its column and row in 16 bits each.
 glsl::uint packed(glsl::ivec2 texel) {
     return static_cast<glsl::uint>(texel.x) | static_cast<glsl::uint>(texel.y) << 16;
 }

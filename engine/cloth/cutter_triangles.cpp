@@ -47,7 +47,7 @@ std::vector<glsl::CutterTriangle> cutter_triangles(const std::vector<Cutter>& cu
     std::vector<glsl::CutterTriangle> all;
     for (const Cutter& cutter : cutters) {
         if (!overlaps(cutter, frame_start, frame_end)) continue;
-        // Only the time within the active interval counts.
+        // The cutter acts only within its active interval.
         const Corners from = corners_at(cutter, std::max(frame_start, cutter.begin));
         const Corners to = corners_at(cutter, std::min(frame_end, cutter.end));
         all.push_back(active(to[0], to[1], to[2]));

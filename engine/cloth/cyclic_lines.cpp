@@ -9,21 +9,22 @@ namespace drape {
 
 namespace {
 
-/// Shared memory of an invocation for the row that it hands to the others of its line (cyclic_group.h,
+/// Returns the shared memory, bytes, in which an invocation passes its row to the others of its line (cyclic_group.h,
+/// cyclic_bent_group.h).
 /// cyclic_bent_group.h), bytes.
 std::uint32_t row_bytes(bool bent) {
     return static_cast<std::uint32_t>(sizeof(glsl::vec4) + sizeof(glsl::vec2) + (bent ? sizeof(glsl::vec3) : 0));
 }
 
-/// Shared memory of a workgroup for what it reports of its lines, bytes.
+/// Shared memory, bytes, for what a workgroup reports about its lines.
 constexpr std::uint32_t report_bytes = glsl::cyclic_least_invocations / glsl::cyclic_least_width * sizeof(glsl::uint);
 
-/// Particles of a line that a subgroup has.
+/// Returns how many particles of a line a subgroup solves.
 int particles_of_part(std::uint32_t subgroup) {
     return static_cast<int>(subgroup) / glsl::part_lines * glsl::part_particles;
 }
 
-/// Shared memory of a subgroup that has parts of lines (shaders/line_parts.comp, part_group.h), bytes.
+/// Returns the shared memory, bytes, of a subgroup that solves parts of lines (shaders/line_parts.comp, part_group.h).
 std::uint32_t bytes_of_parts(std::uint32_t subgroup) {
     constexpr auto particle = static_cast<std::uint32_t>(glsl::part_particles * sizeof(float)),
                    part = static_cast<std::uint32_t>(6 * sizeof(glsl::vec4) + 2 * sizeof(glsl::vec2));
@@ -53,7 +54,7 @@ glsl::ivec2 cyclic_group(int particle_count) {
 }
 
 bool can_part(const glsl::LinePush& push, const GroupLimits& limits) {
-    // Every subgroup solves what is left of all parts, with a lane for each of a line's.
+    // Every subgroup solves the reduced system of all parts, with an invocation for each line's part.
     constexpr auto reports = static_cast<std::uint32_t>(glsl::part_lines * sizeof(glsl::uint));
     const std::uint32_t lanes = limits.subgroup / glsl::part_lines,
                         held = (limits.shared_bytes - reports) / bytes_of_parts(limits.subgroup),

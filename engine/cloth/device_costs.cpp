@@ -14,7 +14,7 @@ constexpr DeviceCosts cpu{.line = {0.7, 200},
                           .collider_edges = {0.14, 48},
                           .colliders = {0.07, 27},
                           .nested_boxes = true};
-/// An H200, driver 580.159, 27 November 2026. Explicit steps are those of tiles of 16x16.
+/// An H200, driver 580.159, 27 November 2026. Explicit steps are measured with tiles of 16x16.
 constexpr DeviceCosts gpu{.line = {0.022, 0.45},
                           .explicit_steps = {0.0025, 0.043},
                           .relax = {0.0105, 0.17},

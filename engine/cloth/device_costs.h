@@ -1,19 +1,19 @@
-// Devices of a kind have these costs in common: from them follow what `auto` proposes and what a method leaves out. The
-// kernels that are the fastest on each kind stand in solver/kernel_choice.cpp. `drape bench speed` measures a substep's
-// time on a device, and with --tune that of every set of kernels.
+// The costs that devices of a kind have in common. They decide what `auto` proposes and which steps a method leaves
+// out. The fastest kernels for each kind are listed in solver/kernel_choice.cpp. `drape bench speed` measures the time
+// of a substep on a device, and with --tune that of every combination of kernels.
 #pragma once
 
 #include "drape/solver_method.h"
 
 namespace drape {
 
-/// On a CPU every store of a pass counts; on a GPU small dispatches cost what the next one waits.
+/// On a CPU every store of a pass costs time; on a GPU the cost of small dispatches is how long the next one waits.
 enum class DeviceKind { cpu, gpu };
 
-/// A substep takes this of one cloth.
+/// The cost of a substep of one cloth.
 struct SubstepCost {
-    double ms;           ///< in dispatches, however small the cloth is
-    double particle_ns;  ///< besides, for each particle
+    double ms;           ///< of its dispatches, however small the cloth is
+    double particle_ns;  ///< in addition, for each particle
 
     SubstepCost& operator+=(const SubstepCost& more) {
         ms += more.ms;
@@ -23,11 +23,11 @@ struct SubstepCost {
 };
 
 struct DeviceCosts {
-    SubstepCost line, explicit_steps, relax;  ///< by method, bare
-    SubstepCost wind, collider_edges;         ///< what these add to any
-    SubstepCost colliders;                    ///< what they add to any: the time for each particle times their number
-    /// Boxes around lone pins are relaxed again and again by a workgroup each (cloth/nested_boxes.h); where this is
-    /// false, more substeps are cheaper.
+    SubstepCost line, explicit_steps, relax;  ///< by method, with nothing else
+    SubstepCost wind, collider_edges;         ///< added to any method
+    SubstepCost colliders;  ///< added to any method: the time per particle, times the number of colliders
+    /// true: a workgroup each relaxes boxes around lone pins repeatedly (cloth/nested_boxes.h). false: more substeps
+    /// are cheaper.
     bool nested_boxes;
 
     /// Returns the cost of a method that a scene can name.

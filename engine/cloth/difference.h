@@ -1,5 +1,5 @@
-// How far two runs of a cloth are apart, from what the device leaves of the comparison; and the disturbance that one of
-// them begins with.
+// How far apart two runs of a cloth are, from the records that the device's comparison leaves, and the disturbance with
+// which the disturbed run begins.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace drape {
 
-/// Returns the workgroups of the comparison, each of which leaves a record.
+/// Returns the number of workgroups in the comparison; each leaves a record.
 std::uint32_t difference_count(const Grid& grid);
-/// Returns the root mean square over the cloth's mass of how far two runs are apart, m.
+/// Returns the root mean square, weighted by mass, of the distance between two runs' particles, m.
 double difference_of(std::span<const glsl::DifferenceRecord> partials);
 
-/// Returns how far (m) the disturbed run's particles are displaced along each axis, at most.
+/// Returns the largest displacement, m, of the disturbed run's particles along each axis.
 float disturbance(const ClothModel& cloth);
 
 }  // namespace drape

@@ -6,7 +6,7 @@ namespace drape {
 
 SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid) {
     const SpringDirection& row = spring_directions[static_cast<std::size_t>(direction)];
-    // Along each axis there are so many springs before the parity split.
+    // The number of springs along each axis before they are split by parity.
     const int columns = grid.x - std::abs(row.offset.x);
     const int rows = grid.y - std::abs(row.offset.y);
     const auto half = [parity](int count) { return (count - parity + 1) / 2; };
@@ -23,7 +23,7 @@ std::vector<SpringPass> spring_passes(glsl::ivec2 grid) {
 
 BendPass bend_pass(int axis, int colour, glsl::ivec2 grid) {
     const glsl::ivec2 offset = bend_axes[static_cast<std::size_t>(axis)].offset;
-    // Middles run from 1 to count - 2.
+    // The middle particles of elements have the indices 1 to count - 2.
     const auto third = [colour](int count) { return count - 2 > colour ? (count - 2 - colour + 2) / 3 : 0; };
     return {axis, colour, {offset.x != 0 ? third(grid.x) : grid.x, offset.y != 0 ? third(grid.y) : grid.y}};
 }

@@ -1,6 +1,6 @@
-// This table has the spring directions, and parity passes relax them (docs/physics.md 2: constraints are coloured, not
-// particles); bending elements and twisting cells have the same. engine/README.md, "How to add", tells what else a new
-// direction meets.
+// The tables of spring directions, bending axes and twisting cells, and the parity passes that relax them
+// (docs/physics.md 2: the constraints are coloured, not the particles). engine/README.md, "How to add", says what else
+// a new direction requires.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ using PerDirection = std::array<T, spring_directions.size()>;
 /// The first rows are the stretch springs.
 inline constexpr std::size_t stretch_direction_count = 2;
 
-/// One dispatch takes every second spring of one direction.
+/// One dispatch relaxes every second spring of one direction.
 struct SpringPass {
     int direction;           ///< row of spring_directions = channel
     int parity;              ///< 0 even, 1 odd
@@ -50,7 +50,7 @@ SpringPass spring_pass(int direction, int parity, glsl::ivec2 grid);
 std::vector<SpringPass> spring_passes(glsl::ivec2 grid);
 
 /// Three neighbouring particles along such an axis form a bending element. The row index is the channel of the spring
-/// shares whose springs the element lies on.
+/// shares of the two springs on which the element lies.
 struct BendAxis {
     std::string_view name;
     glsl::ivec2 offset;  ///< from an element's middle to its third particle
@@ -58,7 +58,7 @@ struct BendAxis {
 inline constexpr std::array<BendAxis, 2> bend_axes{{{"row", {1, 0}}, {"column", {0, 1}}}};
 inline constexpr int bend_colour_count = 3;
 
-/// One dispatch takes every third bending element of one axis.
+/// One dispatch relaxes every third bending element of one axis.
 struct BendPass {
     int axis;                   ///< row of bend_axes
     int colour;                 ///< 0 .. 2
@@ -71,7 +71,7 @@ BendPass bend_pass(int axis, int colour, glsl::ivec2 grid);
 /// Returns the six passes in the order of relaxation, empty ones included.
 std::vector<BendPass> bend_passes(glsl::ivec2 grid);
 
-/// One dispatch takes the twist of every second cell along both axes.
+/// One dispatch relaxes the twist of every second cell along both axes.
 struct TwistPass {
     glsl::ivec2 first;          ///< its first cell: 0 or 1 along columns, rows
     glsl::ivec2 element_count;  ///< cells along columns, rows; either may be 0

@@ -35,8 +35,8 @@ glsl::vec4 row(const std::array<double, 9>& m, std::size_t k, double w) {
             static_cast<float>(w)};
 }
 
-/// Returns what none of a collider's surface moves farther than, in m, after a change of its pose; very much for a turn
-/// so wide that a line through the two poses is no good measure of a way (`most_way` in colliders.h).
+/// Returns a bound, m, on how far any point of a collider's surface moves when its pose changes; a huge value for a
+/// turn so wide that a straight line between the two poses is no good measure of a path (`most_way` in colliders.h).
 float surface_motion(const ColliderPose& change, double reach) {
     double squared = 0;
     for (const double element : change.rotation) squared += element * element;
@@ -86,7 +86,7 @@ void add_deformation(glsl::ColliderRecord& record, double share, double way) {
 
 namespace {
 
-/// Returns h times its rate of change just before a time, by the backward difference of second order.
+/// Returns h times the rate of change of the pin's motion just before a time, by the second-order backward difference.
 RigidTransform pin_velocity(const DynamicPin& pin, double time, double h) {
     constexpr double step = 1.0 / 64;
     const RigidTransform now = pin_transform(pin, time), before = pin_transform(pin, time - step * h),
@@ -105,7 +105,7 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
     const bool released = pin.release && *pin.release <= start + 1e-9;
     const RigidTransform motion = released ? pin_velocity(pin, *pin.release, h) : pin_transform(pin, end);
     const auto& [r, shift] = motion;
-    // A release before the start of a run is one at its start.
+    // A release before the start of a run takes place at its start.
     const double late = released ? std::clamp((start - std::max(*pin.release, 0.0)) / h, 0.0, 1.0) : 0.0;
     return {row(r, 0, shift[0]),
             row(r, 1, shift[1]),
@@ -150,7 +150,8 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
         for (const Cloth& cloth : scene.cloths)
             inputs.stiffness.push_back(static_cast<float>(stiffness_factor(scene, cloth, frame)));
     inputs.forms = model.mesh_fields.forms(frame_start, frame / scene.time.fps);
-    // Distances go from those at the frame's begin to those at its end at constant speed, whatever poses lie between.
+    // Distances change at constant speed from those at the frame's start to those at its end, whatever poses lie
+    // between.
     std::vector<double> ways;
     for (const Collider& collider : scene.colliders)
         ways.push_back(deformed(collider, frame_start, frame / scene.time.fps) / scene.solver.substeps);

@@ -17,7 +17,7 @@ class Substep {
         if (model_.windy) add(StepKind::wind);
         add(cloth_.scheme.prediction);
         if (cloth_.has_motion) add(StepKind::pin);
-        // Once per substep: without a multiplier a second pass would bend a second time as stiffly.
+        // Bending is relaxed once per substep: it has no multiplier, so a second pass would make the cloth stiffer.
         add(cloth_.scheme.once);
         add_iterations();
         add_tethers();
@@ -50,24 +50,25 @@ class Substep {
                     add(kind, iteration).conditional = conditional;
         }
     }
-    /// Ends a substep: tethers, and once more the contacts that they may have pulled particles into.
+    /// Ends a substep: adds tethers, and once more the contacts into which they may have pulled particles.
     void add_tethers() {
         if (!cloth_.tethers.empty()) add(StepKind::tether);
         if (!model_.scene.colliders.empty() && collides_again()) collide(model_.scene.solver.iterations, true);
     }
-    /// After the iterations: behind tethers, and where the device may skip the last iteration, in which the edges of
-    /// boxes would be met.
+    /// Returns whether contact comes once more after the iterations: after tethers, or where the device may skip the
+    /// last iteration, in which the edges of boxes would be handled.
     bool collides_again() const { return !cloth_.tethers.empty() || (cloth_.edge_reach > 0 && model_.adaptive()); }
-    /// `ends`: nothing moves the particles any more in this substep.
+    /// `ends`: nothing moves the particles afterwards in this substep.
     Step& collide(std::uint32_t iteration, bool ends) {
         const bool edges = ends && cloth_.edge_reach > 0;
         if (edges) add(StepKind::collider_edges, iteration);
-        // Led off one triangle, a corner may be past its neighbour.
+        // A corner that was led off one triangle may have passed a neighbouring one.
         if (edges) add(StepKind::collider_edges, iteration).after_edges = true;
         Step& step = add(StepKind::collide, iteration);
         step.after_edges = edges;
         step.supporting = model_.self_contact.has_value();
-        // Where cloths meet, only ways that contact looks at may lead a particle (ContactSteps::collide).
+        // Where cloths can touch each other, only motions that contact between cloths checks may lead a particle
+        // (ContactSteps::collide).
         step.leading = !std::exchange(collided_, true) && !model_.self_contact;
         return step;
     }
@@ -80,8 +81,8 @@ class Substep {
     bool collided_ = false;
 };
 
-/// Adds the steps of contact between the cloths to a substep's, last of all, so that nothing moves a particle after its
-/// motion was found to cross nothing.
+/// Adds the steps of contact between cloths at the end of a substep, so that nothing moves a particle after its motion
+/// was found to cross nothing.
 class ContactSteps {
   public:
     ContactSteps(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)

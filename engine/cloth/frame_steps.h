@@ -7,11 +7,11 @@
 
 namespace drape {
 
-/// The steps of one frame: first the stiffness of cloths whose keys change it; all cloths of a substep, then the next
-/// substep; at the end X += d of every cloth. Of a cloth's substep: release, wind, the method's prediction, pin motion,
-/// what the method does once, then per iteration what it iterates, and collisions; with tethers it ends with them, and
-/// with collisions again. When adaptive, residual and decision follow every iteration but a substep's last. Contact
-/// between the cloths ends a substep of all of them.
+/// Returns the steps of one frame. It begins with the stiffness of cloths whose keys change it; then come the substeps,
+/// each for all cloths; it ends with X += d of every cloth. A cloth's substep consists of release, wind, the method's
+/// prediction, pin motion, the method's steps that are taken once, then in each iteration the method's iterated steps
+/// and collisions; with tethers, these and another collision follow. In an adaptive run, residual and decision follow
+/// every iteration but a substep's last. Contact between cloths ends a substep of all of them.
 std::vector<Step> frame_steps(const SimulationModel& model);
 
 }  // namespace drape

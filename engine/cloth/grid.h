@@ -1,4 +1,4 @@
-// The grid on the CPU knows which cells and triangles exist, and the masses and spring stiffnesses that follow
+// The grid on the CPU: which cells and triangles exist, and the masses and spring stiffnesses that follow from them
 // (docs/physics.md 1: each cell gives a quarter of its mass to each corner, half a spring to each side, and both its
 // diagonals).
 #pragma once
@@ -32,22 +32,23 @@ class Grid {
     std::uint32_t cell(int column, int row) const;
     /// Returns (columns-1) x (rows-1) cells, row by row.
     const std::vector<std::uint32_t>& cells() const { return cells_; }
-    /// Removes a triangle that was cut: wind, normals and rest pieces do without it; masses and springs stay.
+    /// Removes a triangle that was cut: wind, normals and rest pieces ignore it; masses and springs stay.
     void remove_triangle(std::size_t cell, std::uint32_t which);
-    /// Returns whether every cell is whole and like the others: then no mask is needed anywhere.
+    /// Returns whether every cell exists and has the same factors; then no mask is needed anywhere.
     bool whole() const { return whole_; }
 
     /// Returns the factor of a cell's mass; 0: the cell is missing.
     float cell_density(int column, int row) const;
-    /// Returns the mass of the cells around a particle, each with its factor, in units of a quarter of a cell's.
+    /// Returns the sum of the factors of the mass of the cells around a particle, in units of a quarter of a cell's
+    /// mass.
     double cell_masses(std::uint32_t column, std::uint32_t row) const;
     /// Returns the inverse mass relative to an inner particle: 4 / cell_masses; 1 inside, 2 on a border, 4 at a
     /// corner, 0 for a particle without any cell.
     float relative_inverse_mass(std::uint32_t column, std::uint32_t row) const;
     /// Returns the factor of a cell's stiffness; 0: the cell is missing.
     float cell_stiffness(int column, int row) const;
-    /// Returns the share of a spring's stiffness per direction of the table, owned by its first particle: 0, 0.5 or 1,
-    /// or what the factors of the cells beside it make of that.
+    /// Returns by direction the share of the stiffness of the springs that this particle owns: 0, 0.5 or 1, or a value
+    /// between, by the factors of the cells beside the spring.
     glsl::vec4 spring_shares(std::uint32_t column, std::uint32_t row) const;
 
     /// Returns three particle indices per existing triangle, cell by cell, upper before lower.

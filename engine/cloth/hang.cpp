@@ -9,11 +9,12 @@ namespace drape {
 
 namespace {
 
-/// This share of the wind's pressure on a plate, measured on the flag scene, stretches a cloth: it turns with the wind.
+/// This share of the wind's pressure on a plate stretches a cloth, measured on the flag scene; the rest is lost because
+/// cloth turns with the wind.
 constexpr double wind_share = 0.3;
 
-/// Returns the largest straight distance of a particle from the nearest pin, m, on the flat cloth, sampled; half the
-/// size without pins.
+/// Returns the largest straight distance, m, of a particle from the nearest pin on the flat cloth, by sampling; without
+/// pins, half the cloth's size.
 double hanging_length(const Cloth& cloth) {
     const auto [dx, dy] = grid_spacing(cloth);
     if (cloth.pins.empty()) return 0.5 * std::max(cloth.size[0], cloth.size[1]);
@@ -36,7 +37,8 @@ double hanging_length(const Cloth& cloth) {
     return longest;
 }
 
-/// Returns the axis (0: rows, 1: columns) along which links lead away from a whole edge held for good; -1: none is.
+/// Returns the axis (0: rows, 1: columns) of the links that lead away from a whole edge that is held for good; -1: no
+/// edge is.
 int axis_from_held_edge(const Cloth& cloth) {
     for (const Pin& pin : cloth.pins) {
         const IndexBox& box = pin.particles;

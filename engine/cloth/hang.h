@@ -4,27 +4,28 @@
 
 namespace drape {
 
-/// The laws of the methods' stretch errors depend on how a cloth hangs.
+/// How a cloth hangs, on which the laws of the methods' stretch errors depend.
 struct Hang {
     double length;        ///< m below the pins
-    double spacing;       ///< m, the finer links'
+    double spacing;       ///< m, of the finer links
     double gravity;       ///< m/s^2
     double acceleration;  ///< m/s^2, gravity and the wind's share
-    bool by_an_edge;      ///< a held edge carries it, and nothing stands in its way
-    double edge_spacing;  ///< m, that of the links that lead away from that edge
-    bool by_lone_pins;    ///< particles held alone carry it, and nothing stands in its way
-    bool calm;            ///< besides, no wind blows and gravity stays
+    bool by_an_edge;      ///< a held edge carries it, and no collider is in its way
+    double edge_spacing;  ///< m, of the links that lead away from that edge
+    bool by_lone_pins;    ///< lone held particles carry it, and no collider is in its way
+    bool calm;            ///< it hangs by an edge, no wind blows and gravity stays constant
     std::size_t particle_count;
 };
 
-/// Returns m/s^2 of wind at a speed (m/s): its pressure on a plate across it. It is 0 without wind.
+/// Returns the acceleration, m/s^2, by wind of a speed (m/s): its pressure on a plate that faces it. It is 0 without
+/// wind.
 double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
-/// Returns the share of it that stretches a cloth.
+/// Returns the share of this acceleration that stretches a cloth.
 double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth);
 
-/// The worst frame of a moving cloth errs by so much more than a hanging one.
+/// The factor by which the worst frame of a moving cloth errs more than a hanging one.
 double motion_factor(const Hang& hang);
 
 }  // namespace drape

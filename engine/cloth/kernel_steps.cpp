@@ -14,14 +14,14 @@ namespace drape {
 
 namespace {
 
-/// A frame's first step stays alone, since it finds other positions (Step::substep).
+/// A frame's first step stays alone, since it takes other positions (Step::substep).
 bool can_join(const Step& step) {
     return step.kind == StepKind::explicit_step && step.substep > 0 && !step.last &&
            step.push<glsl::ExplicitPush>().twist == 0;
 }
 
-/// Where the steps of a cloth from `first` on are, as long as nothing else happens to it between them and they are no
-/// more than may be; nothing where they are too few.
+/// Returns the places of consecutive steps of a cloth from `first` on, between which nothing else happens to it, up to
+/// the largest number allowed; nothing if there are too few.
 std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t first, const FlightSize& size) {
     std::vector<std::size_t> places;
     for (std::size_t k = first; k < steps.size() && places.size() < size.most; ++k) {
@@ -32,13 +32,13 @@ std::vector<std::size_t> run_of(const std::vector<Step>& steps, std::size_t firs
     return places.size() >= size.least ? places : std::vector<std::size_t>{};
 }
 
-/// Finds the plain steps that make up one of all springs.
+/// Finds the plain steps that one step of all springs replaces.
 class SpringJoiner {
   public:
     SpringJoiner(const SimulationModel& model, Kernel kernel, const std::vector<Step>& steps)
         : model_(model), kernel_(kernel), steps_(steps) {}
 
-    /// How many steps from `first` on are all springs of an iteration that can be one; 0: none.
+    /// Returns how many steps from `first` on, all springs of an iteration, one step can replace; 0: none.
     std::size_t length_at(std::size_t first) const {
         const Step& step = steps_[first];
         if (step.kind != StepKind::spring || step.conditional) return 0;
@@ -79,9 +79,9 @@ class SpringJoiner {
     const std::vector<Step>& steps_;
 };
 
-/// Steps of which some are joined ones, which write the spare displacement: so a prediction does too before an odd
-/// number of them. Those of all springs write the spare tensions as well, so that a substep's last one writes the
-/// tension where it is looked for.
+/// Counts the joined steps of a substep, which write the spare displacement: before an odd number of them the
+/// prediction writes it too. Steps of all springs also write the spare tensions, so the last one of a substep must
+/// write the tension to where it is read later.
 class JoinedSteps {
   public:
     void add(const Step& step) {
@@ -100,29 +100,29 @@ class JoinedSteps {
     const std::vector<Step>& steps() const { return steps_; }
 
   private:
-    /// Places of steps.
+    /// The places of a substep's steps.
     struct Substep {
         std::size_t prediction = 0;
         std::vector<std::size_t> springs;
     };
     std::vector<Step> steps_;
-    std::map<std::size_t, Substep> substeps_;  ///< the last one, by cloth
+    std::map<std::size_t, Substep> substeps_;  ///< by cloth, its last substep
 };
 
-/// The size of the joined explicit steps of a tile, which are more where it holds the whole cloth.
+/// Returns how many explicit steps a tile takes at once: more of them where it holds the whole cloth.
 FlightSize tile_flight(const Grid& grid) {
     const std::uint32_t halo = tile_of(StepKind::explicit_step, grid).halo;
     return {2, halo == 0 ? std::uint32_t{glsl::tile_most_steps} : halo};
 }
 
-/// Explicit steps that stay alone stream too, unless wind blows or the cloth bends.
+/// Explicit steps that stay alone use the streaming kernel too, unless wind blows or the cloth bends.
 void stream_single_steps(const SimulationModel& model, std::vector<Step>& steps) {
     for (Step& step : steps)
         if (step.kind == StepKind::explicit_step && !model.windy && step.push<glsl::ExplicitPush>().twist == 0)
             step.kernel = Kernel::explicit_stream;
 }
 
-/// Long lines are solved in parts, others by reduction.
+/// Long lines are solved in parts, the others by cyclic reduction.
 void reduce_lines(const Kernels& kernels, std::vector<Step>& steps) {
     for (Step& step : steps) {
         if (step.kind != StepKind::line) continue;

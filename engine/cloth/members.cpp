@@ -15,7 +15,8 @@ namespace {
 
 using Difference = std::optional<std::string>;
 
-/// On a CPU a dispatch costs as much as the contact of a few hundred particles, and each has to ask whose it is.
+/// On a CPU a dispatch costs as much as the contact of a few hundred particles, and in a shared dispatch each
+/// invocation has to find out whose particle it has.
 constexpr std::size_t most_meeting_particles = std::size_t{24} * 24;
 
 template <class Value>
@@ -55,7 +56,7 @@ std::string pins(const std::vector<Pin>& pins) {
     return boxes(held) + moves;
 }
 
-/// Returns why two cloths, for all that one key says, are not of one shape.
+/// Returns how two cloths differ in shape by one key.
 Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& first, const Cloth& other) {
     const std::string pointer = fmt::format("{}{}", at, pointer_of(key));
     const auto grid = [](const Cloth& cloth) { return fmt::format("{} x {}", cloth.grid[0], cloth.grid[1]); };
@@ -89,7 +90,7 @@ Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& fi
                           spelling(contact_spellings, other.contact));
         case ClothKey::self_collision:
             return differ(pointer, there(first.self_collision.has_value()), there(other.self_collision.has_value()));
-        // Numbers of each member's own.
+        // Each member has its own values of these.
         case ClothKey::size:
         case ClothKey::placement:
         case ClothKey::start:
@@ -100,7 +101,7 @@ Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& fi
         case ClothKey::velocity:
         case ClothKey::velocities:
         case ClothKey::appearance:
-        // sharing_obstacle knows what tears.
+        // sharing_obstacle handles scenes that tear.
         case ClothKey::tear:
         case ClothKey::cell_tear:
             return std::nullopt;

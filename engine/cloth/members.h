@@ -1,4 +1,4 @@
-// Members of an ensemble are scenes of one shape, which differ in numbers; their cloths are simulated together
+// Members of an ensemble are scenes of one shape that differ in numbers. Their cloths are simulated together
 // (cloth/together.h), each with its own scene's wind and colliders. Pure.
 #pragma once
 
@@ -10,15 +10,16 @@
 
 namespace drape {
 
-/// Returns in what a scene is of another shape than the first, as a JSON pointer and both values: grids, holes, pinned
-/// particles, kinds of colliders, whether something moves, solver settings that decide the steps. Nothing: in nothing.
+/// Returns how a scene's shape differs from the first one's, as a JSON pointer and both values. Shape means grids,
+/// holes, pinned particles, kinds of colliders, whether something moves, and solver settings that decide the steps.
+/// Nothing: the shapes are equal.
 std::optional<std::string> shape_difference(const SceneDescription& first, const SceneDescription& other);
 
-/// Returns why members of this shape take their dispatches one by one; nothing: they share them.
+/// Returns why members of this shape cannot share dispatches; nothing: they can.
 std::optional<std::string> sharing_obstacle(const SimulationModel& model);
 
-/// Puts the inputs of all members of `all` in the place of others; where colliders of any move, each gets records for
-/// every substep, which for colliders at rest are those of the first.
+/// Replaces `joined` by the inputs of all members of `all`. Where colliders of any member move, every member gets
+/// records for every substep; those of colliders at rest repeat the first substep's.
 void join_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members, FrameInputs& joined);
 
 }  // namespace drape

@@ -17,7 +17,8 @@ namespace drape {
 
 namespace {
 
-constexpr std::size_t kept_forms = 3, kept_frames = 2;  ///< a frame has two forms, and the next one begins with one
+constexpr std::size_t kept_forms = 3,
+                      kept_frames = 2;  ///< a frame has two forms, and the next frame begins with one of them
 
 void append_head(const DistanceField& field, std::vector<glsl::vec4>& texels) {
     const auto at = [](double x) { return static_cast<float>(x); };
@@ -42,7 +43,7 @@ void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
 
 }  // namespace
 
-/// Meshes that deform, and what was told of their last forms, by the numbers of their poses.
+/// Meshes that deform, and the last forms that were asked for, by the numbers of their poses.
 class MeshFields::Forms {
   public:
     void add(const Mesh& mesh, const FieldPlan& plan, std::size_t first_sample) {

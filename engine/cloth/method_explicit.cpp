@@ -19,7 +19,7 @@ RelativeStiffness stiffness_of(const ClothGeometry& cloth, const MethodSettings&
                               settings.strain_damping);
 }
 
-/// explicit_increment asks for this.
+/// explicit_increment requires a sum without negative zeros.
 glsl::vec4 without_negative_zeros(glsl::vec4 v) { return {v.x + 0.0f, v.y + 0.0f, v.z + 0.0f, v.w + 0.0f}; }
 
 glsl::ExplicitPush step_constants(const ClothGeometry& cloth, const MethodSettings& settings,
@@ -91,9 +91,9 @@ RelativeStiffness relative_stiffness(const StiffnessConstants& wanted, const std
     const double scale = substep_length * substep_length / inner_mass;
     const double diagonal_squared = spacing[0] * spacing[0] + spacing[1] * spacing[1];
     RelativeStiffness used;
-    // The largest eigenvalue of a chain of bending elements is 16 b. That of a cell's twist, t c c^T with c = (1, -1,
-    // -1, 1), against the quarter of a mass that the cell gives each of its corners, is 4 t/(1/4) = 16 t. They add: all
-    // three are largest for the checkerboard.
+    // The largest eigenvalue of a chain of bending elements is 16 b. The twist of a cell, t c c^T with c = (1, -1, -1,
+    // 1), against the quarter of a mass that the cell gives each corner, has 4 t/(1/4) = 16 t. The values add, since
+    // the checkerboard is the eigenvector of all three.
     const double bend = 4 * (wanted.bend[0] + wanted.bend[1] + wanted.twist) * scale;
     used.bend_share = std::min(1.0, bend_limit / std::max(bend, bend_limit));
     const double limit = elastic_limit - 0.5 * bend * used.bend_share;

@@ -14,18 +14,18 @@ namespace drape {
 
 namespace {
 
-/// A BDF2 step has these dimensionless constants under damping (shaders/include/bdf2.h).
+/// The dimensionless constants of a BDF2 step under damping (shaders/include/bdf2.h).
 struct Bdf2Step {
     double weight;  ///< f = 1/(1 + (2/3) c h), applies to the history's differences
     double loss;    ///< applies to the displacement
     double forced;  ///< applies to h^2 times the acceleration
 };
 
-/// In flight under damping the differences of d fall by E = e^(-c h) from substep to substep, and d itself towards h
-/// a/c. With K = f (2/9) (1 - 1/(2 E)) + f (4/9), which the history gives, the step is exact there when loss = (1 - E)
-/// (1 - K/E) and forced = loss/(c h); these are (2/3) (1 - f) and (4/9) f to second order. Where damping takes more
-/// than most of the velocity in a substep the exact ones amplify whatever else moves (1/E), so there the others are
-/// used.
+/// In damped flight the differences of d fall by E = e^(-c h) from substep to substep, and d itself approaches h a/c.
+/// With K = f (2/9) (1 - 1/(2 E)) + f (4/9), which the history gives, a step is exact for this flight when loss = (1 -
+/// E) (1 - K/E) and forced = loss/(c h); to second order these are (2/3) (1 - f) and (4/9) f. Where damping takes more
+/// than most of the velocity in a substep, the exact constants amplify all other motion by 1/E, so the second-order
+/// ones are used there.
 Bdf2Step bdf2_step(const ClothGeometry& cloth, const MethodSettings& settings) {
     const double ch = cloth.damping * settings.substep_length, f = 1 / (1 + 2.0 / 3 * ch);
     if (ch < 1e-6 || ch > 1) return {f, 2.0 / 3 * (1 - f), 4.0 / 9 * f};
@@ -34,12 +34,13 @@ Bdf2Step bdf2_step(const ClothGeometry& cloth, const MethodSettings& settings) {
     return {f, loss, loss / ch};
 }
 
-/// Returns the compliance m/(k h^2) of a spring in a BDF2 step over that in backward Euler: (9/4) (1 + (2/3) c h).
+/// Returns the compliance m/(k h^2) of a spring in a BDF2 step divided by that in backward Euler: (9/4) (1 + (2/3) c
+/// h).
 double bdf2_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
     return 1 / bdf2_step(cloth, settings).forced;
 }
 
-/// Returns the same for the stiffest steps that there will be many of: in contact they are backward Euler.
+/// Returns this factor for the stiffest steps of the run that are frequent: with contact these are backward Euler.
 double least_factor(const ClothGeometry& cloth, const MethodSettings& settings) {
     return settings.collides ? 1.0 : bdf2_factor(cloth, settings);
 }
@@ -53,7 +54,7 @@ double euler_compliance(double constant, const ClothGeometry& cloth, const Metho
     return cloth.inner_mass / (constant * settings.substep_length * settings.substep_length);
 }
 
-/// Springs that there are not, in lines that only bend, pull on nothing with this.
+/// The compliance of missing springs in lines that only bend: they pull on nothing.
 constexpr double slack_compliance = 1e20;
 
 glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth, const MethodSettings& settings) {
@@ -83,23 +84,23 @@ glsl::LinePush line_constants(std::size_t direction, const ClothGeometry& cloth,
             cloth.compression};
 }
 
-/// Returns the stiffness (N/m) that a line's spring has, given the least compliance.
+/// Returns the stiffness (N/m) that a line's spring can have with the least compliance.
 double line_stiffness(double stiffness, const ClothGeometry& cloth, const MethodSettings& settings) {
     if (stiffness == 0) return 0;
     const double wanted = least_factor(cloth, settings) * euler_compliance(stiffness, cloth, settings);
     return wanted < least_line_compliance ? stiffness * wanted / least_line_compliance : stiffness;
 }
 
-/// Returns the substeps per frame that give the stiffest springs no less than the least compliance.
+/// Returns the substeps per frame with which the stiffest springs have at least the least compliance.
 double enough_substeps(const ClothGeometry& cloth, const MethodSettings& settings) {
     const double undamped = settings.collides ? 1.0 : 2.25;  // the factor on the compliance as substeps become short
     const double least = std::ranges::max(cloth.stiffness_constant.spring) * least_line_compliance;
     return std::ceil(settings.substeps * settings.substep_length / std::sqrt(undamped * cloth.inner_mass / least));
 }
 
-/// At most this share of a cloth's lines may meet a spring that is wrong without asking for backward Euler: those
-/// around a lone pin of a fine grid do in most substeps, and where one such line is enough, sheets held at two corners
-/// lose two thirds of their accuracy to it (docs/solvers.md, "BDF2 or backward Euler").
+/// Up to this share of a cloth's lines may be wrong (line_violation_limit) before the next substep is backward Euler.
+/// Lines around a lone pin of a fine grid are wrong in most substeps; if a single line were enough, sheets held at two
+/// corners would lose two thirds of their accuracy (docs/solvers.md, "BDF2 or backward Euler").
 constexpr double most_wrong_share = 1.0 / 16;
 
 std::uint32_t most_wrong_lines(const ClothGeometry& cloth) {
@@ -131,7 +132,8 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
 void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     scheme.second_order = true;
     const double h = settings.substep_length;
-    // Under strong damping the exact displacement before the start is many times v h, and BDF2 sees it in its history.
+    // Under strong damping the exact displacement before the start is many times v h, which BDF2 would read in its
+    // history.
     if (cloth.damping * h > 1)
         set_start(
             cloth,
@@ -145,7 +147,7 @@ void add_prediction(const ClothGeometry& cloth, const MethodSettings& settings, 
 }
 
 void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
-    // Diagonals come first: they disturb rows and columns, which carry the load and have the last word.
+    // Diagonals come first, because they disturb rows and columns, which carry the load and are solved last.
     for (const SpringFamily family : {SpringFamily::shear, SpringFamily::stretch})
         for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
             const bool pulls = cloth.stiffness_constant.spring[direction] > 0, bends = line_bend(direction, cloth) > 0;
@@ -180,10 +182,10 @@ MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& setti
 
 double line_substeps(const Hang& hang, double frame, double tolerance, const DeviceCosts& costs) {
     const double root = std::sqrt(std::min(1.0, tolerance / default_tolerance));
-    // A tenth of the wind counts: implicit tension carries most of what it adds.
+    // A tenth of the wind counts, since implicit tension carries most of the load that wind adds.
     const double pull = hang.gravity + 0.1 * (hang.acceleration - hang.gravity);
     const double waves = frame * std::sqrt(pull * hang.length);  // m times a frame's substeps
-    // Four substeps at 60 Hz are needed for a metre: it is 5e-4 m off after half a second's swing.
+    // A metre of cloth needs four substeps at 60 Hz: it is then 5e-4 m off after it has swung for half a second.
     const double resolving = frame * std::sqrt(pull / hang.length) / 0.013;
     if (hang.by_an_edge) return std::max(resolving, waves / (3.3 * root * hang.edge_spacing));
     const double finer = std::max(1.0, hang.length / (64 * hang.spacing));

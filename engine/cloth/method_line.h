@@ -1,5 +1,6 @@
-// Solves whole rows, columns and diagonals of springs at a time as tridiagonal systems; BDF2 where nothing collides,
-// with backward Euler where the control says so, else backward Euler alone (docs/solvers.md, "Line solve with BDF2").
+// Solves whole rows, columns and diagonals of springs at a time as tridiagonal systems. Without collisions it uses
+// BDF2, or backward Euler where the control says so; with collisions always backward Euler (docs/solvers.md, "Line
+// solve with BDF2").
 #pragma once
 
 #include "cloth/method.h"

@@ -15,7 +15,7 @@ namespace drape {
 
 namespace {
 
-// With 2.61 micro-steps per link or more nothing is softened at wave speed 100 m/s and 60 frames/s.
+// With 2.61 or more micro-steps per link nothing is softened, at a wave speed of 100 m/s and 60 frames/s.
 constexpr double explicit_sweep[] = {0.5, 0.707, 1, 1.414, 2, 2.61, 3.2}, explicit_quick[] = {0.5, 1, 2.61};
 constexpr double line_sweep[] = {4, 8, 12, 16, 20, 30, 40, 80, 160}, line_quick[] = {4, 8, 20};
 constexpr double relax_sweep[] = {1, 2, 5, 10, 20, 40, 80, 160, 320}, relax_quick[] = {5, 20, 80};
@@ -47,8 +47,8 @@ constexpr Method rows[] = {
      {false, relax_sweep, relax_quick}},
 };
 
-/// Returns c h, of which a substep takes no more than leaves this share of a velocity: the displacement before the
-/// start is more than the next one by one over that share, and has only so many digits.
+/// Returns c h, limited so that a substep leaves at least this share of a velocity: the displacement before the start
+/// is larger than the next one by the inverse of that share, and has only so many digits.
 double damped(double damping, double h) {
     constexpr double least_left = 1.0 / 128;
     static const double most = -std::log(least_left);
@@ -64,7 +64,7 @@ double start_displacement(double velocity, double acceleration, double damping, 
     return velocity * growth + acceleration / damping * (h - growth);
 }
 
-/// Appends to a list of bytes. Push structures have no padding: every member is of four bytes or a vector of them.
+/// Collects bytes. Push structures have no padding: every member is of four bytes or a vector of them.
 struct ByteList {
     std::vector<std::byte> bytes;
 
@@ -79,7 +79,7 @@ struct ByteList {
             add(kind);
             std::visit(
                 [this]<class T>(const T& push) {
-                    if constexpr (!std::is_empty_v<T>) add(push);  // the byte of an empty one is anything
+                    if constexpr (!std::is_empty_v<T>) add(push);  // an empty structure's byte is undefined
                 },
                 constants);
         }
@@ -91,7 +91,7 @@ struct ByteList {
 std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t>(std::min(std::ceil(substeps), 1e9)); }
 
 std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
-    // A binding names every member: one that is added does not compile until it is added here.
+    // The binding names every member, so a new member does not compile until it is added here.
     const auto& [prediction, once, iterated, start, starts, spare_state, spare_displacement, spare_tension,
                  second_order, line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension,
                  used_stiffness, used_bend, used_twist, following_substeps, skipped, compromises] = scheme;
@@ -102,7 +102,7 @@ std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
         used_twist, following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
     for (const glsl::vec4& each : starts) list.add(each);
-    static_cast<void>(skipped), static_cast<void>(compromises);  // these are words
+    static_cast<void>(skipped), static_cast<void>(compromises);  // these are texts
     return list.bytes;
 }
 

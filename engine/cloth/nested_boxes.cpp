@@ -16,22 +16,23 @@ namespace {
 
 using glsl::ivec2;
 
-/// The iterations of a block take the box of particles within `radius` columns and rows of a pin.
+/// The iterations of a block relax the box of particles within `radius` columns and rows of a pin.
 struct NestedBlock {
     ivec2 radius;
     int iterations;
 };
 
-/// Beyond so many particle visits per particle of the cloth more substeps are cheaper.
+/// Above this number of visits per particle of the cloth, more substeps are cheaper.
 constexpr double most_visits = 3;
 
-/// A strip has at most so many rows on either side of a pin, so that all blocks together stay below most_loop_rounds.
+/// A strip has at most this many rows on either side of a pin, so that all blocks together stay below most_loop_rounds.
 constexpr int longest_strip = 1024;
 
-/// Returns boxes up to the largest and back, with the smallest again and again, and once the strip around the pin's
-/// column, which carries far more than the columns beside it, all the way down. Boxes around inner particles have one
-/// line less than a multiple of eight, those in corners a multiple: as many as a subgroup of the default device goes
-/// along at a time. There are none where more substeps are cheaper (docs/solvers.md, "Nested boxes at lone pins").
+/// Returns boxes that grow to the largest and shrink again, with the smallest repeated many times, and once the strip
+/// around the pin's column, which carries far more than the columns beside it, all the way down. Boxes around inner
+/// particles have one line less than a multiple of eight, those in corners exactly a multiple: as many lines as a
+/// subgroup of the default device follows at a time. The list is empty where more substeps are cheaper
+/// (docs/solvers.md, "Nested boxes at lone pins").
 std::vector<NestedBlock> nested_blocks(const Grid& grid) {
     const auto box = [](int radius, int iterations) { return NestedBlock{{radius, radius}, iterations}; };
     const NestedBlock strip{{7, std::min(grid.size().y, longest_strip)}, 1};
@@ -46,7 +47,7 @@ std::vector<NestedBlock> nested_blocks(const Grid& grid) {
             box(127, 1), box(7, 8), box(63, 1), box(7, 8), box(31, 2), box(7, 8), box(15, 4), box(7, 8)};
 }
 
-/// Returns the held particles of the cloth without a held neighbour: column, row.
+/// Returns the held particles of the cloth that have no held neighbour: column, row.
 std::vector<ivec2> lone_pins(const ClothGeometry& cloth) {
     const ivec2 size = cloth.grid.size();
     const auto held = [&](int column, int row) {
@@ -76,7 +77,7 @@ double visits(const Grid& grid, ivec2 pin, const std::vector<NestedBlock>& block
     return sum;
 }
 
-/// Returns whether no block of one pin shares a particle with one of another.
+/// Returns whether no block around one pin shares a particle with a block around the other.
 bool apart(ivec2 pin, ivec2 other, const std::vector<NestedBlock>& blocks) {
     const ivec2 distance{std::abs(pin.x - other.x), std::abs(pin.y - other.y)};
     return std::ranges::all_of(blocks, [&](const NestedBlock& a) {
@@ -86,7 +87,7 @@ bool apart(ivec2 pin, ivec2 other, const std::vector<NestedBlock>& blocks) {
     });
 }
 
-/// Returns the pins in rounds, within which all are apart.
+/// Returns the pins grouped in rounds; within a round, the blocks of different pins share no particle.
 std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const std::vector<NestedBlock>& blocks) {
     std::vector<std::vector<ivec2>> rounds;
     for (const ivec2 pin : pins) {
@@ -101,7 +102,7 @@ std::vector<std::vector<ivec2>> rounds_of(const std::vector<ivec2>& pins, const 
     return rounds;
 }
 
-/// Returns the lines' constants by direction.
+/// Returns the constants of the lines by direction.
 glsl::NestedPush nested_constants(const ClothGeometry& cloth, const MethodScheme& scheme) {
     glsl::NestedPush push{};
     push.grid = cloth.grid.size();

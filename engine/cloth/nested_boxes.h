@@ -1,15 +1,16 @@
-// Steps of the line method that solve boxes around particles that are held alone (docs/solvers.md).
+// Steps of the line method that solve boxes around lone pins (docs/solvers.md).
 #pragma once
 
 #include "cloth/method.h"
 
 namespace drape {
 
-/// Adds the boxes around every held particle without a held neighbour to the steps of an iteration, after the lines of
-/// the scheme; or says why not. Sets its `nested_table`.
+/// Adds, after the lines of an iteration, boxes around every held particle that has no held neighbour, or notes why
+/// not. Sets the scheme's `nested_table`.
 void add_nested_boxes(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme);
 
-/// Returns the rounds of loops of an invocation of a workgroup of `width`, which follows the lines of a pin's blocks.
+/// Returns how many rounds of loops an invocation runs through when a workgroup of `width` follows the lines of a pin's
+/// blocks.
 std::uint64_t nested_rounds(const MethodScheme& scheme, const glsl::NestedPush& push, glsl::ivec2 pin, int width);
 
 }  // namespace drape

@@ -8,9 +8,9 @@
 
 namespace drape {
 
-/// Returns the substeps per frame to choose from, ascending, even, up to the method's most.
+/// Returns the numbers of substeps per frame to choose from: ascending, even, up to the method's largest.
 std::span<const std::uint32_t> substep_rungs(const Method& method);
-/// Returns the first of at least so many substeps, or the last.
+/// Returns the index of the first rung with at least so many substeps, or of the last rung.
 std::uint32_t first_rung(const Method& method, double substeps);
 
 }  // namespace drape

@@ -9,12 +9,12 @@ namespace drape {
 
 namespace {
 
-/// Returns by how much (m) the search for cells looks farther than it needs to. Cells of flat cloth that are no
-/// neighbours are a spacing apart, and shall not be found.
+/// Returns how much farther (m) than necessary the search for cells looks. Cells of flat cloth that are no neighbours
+/// are one spacing apart, and must not be found.
 double search_margin(double spacing, double thickness) { return std::max(0.2 * spacing, 0.8 * (spacing - thickness)); }
 
-/// Returns the spacings, m, along columns and rows of a flat cloth whose particles are no farther apart than those of
-/// this one at rest.
+/// Returns the spacings, m, along columns and rows of a flat cloth whose particles are at most as far apart as those of
+/// this cloth at rest.
 std::array<double, 2> densest_spacing(const ClothModel& model) {
     float least = 1;
     for (const glsl::vec4& scales : model.rest_scales)
@@ -30,13 +30,13 @@ int top_level(glsl::ivec2 grid) {
     return level;
 }
 
-/// Returns the friction coefficient between a cloth's layers, but for maps.
+/// Returns the friction coefficient between a cloth's layers, without its maps.
 double friction_of(const Cloth& cloth) {
     return cloth.self_collision.value_or(SelfCollision{}).friction.value_or(cloth.friction);
 }
 
-/// Returns the thickness between the layers of a cloth whose particle has this factor, m: what it asks for, within what
-/// its grid allows. One that a scene gives, and no map changes, is within that but for rounding.
+/// Returns the thickness, m, between the layers of a cloth whose particle has this factor: the wanted one, limited by
+/// what its grid allows. A thickness that the scene gives and no map changes is within this limit, except for rounding.
 float layer_thickness(const Cloth& cloth, double spacing, float factor = 1) {
     const std::optional<double> asked = cloth.self_collision.value_or(SelfCollision{}).thickness;
     if (asked && cloth.particle_thickness.empty()) return static_cast<float>(*asked);
@@ -52,7 +52,7 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     constants.spacing = {static_cast<float>(dx), static_cast<float>(dy)};
     constants.thickness = layer_thickness(cloth, spacing);
     constants.friction = static_cast<float>(friction_of(cloth));
-    // In flat cloth the nearest primitives that share no corner are a cell's corner and the diagonal beside it.
+    // In flat cloth, the nearest primitives that share no corner are the corner of a cell and the diagonal beside it.
     constants.least_flat = static_cast<float>(dx * dy / std::hypot(dx, dy));
     return constants;
 }
@@ -62,7 +62,8 @@ double particle_mass(const Cloth& cloth, const ClothModel& model) {
     return cloth.areal_density * model.spacing[0] * model.spacing[1];
 }
 
-/// Only so many pairs of cloths are worked apart, as one invocation goes through all of them; more of them never meet.
+/// At most this many pairs of cloths are led apart, since one invocation processes all of them; further pairs never
+/// touch.
 constexpr std::size_t most_crossed = 4096;
 
 bool is_held(const Cloth& cloth) { return !cloth.pins.empty(); }
@@ -84,7 +85,7 @@ glsl::SelfCrossed parted(const SceneDescription& scene, const std::vector<ClothM
 
 int stepped(int length) { return (length + self_sheet_step) / self_sheet_step * self_sheet_step; }
 
-/// Lays the cloths on shelves of a sheet that is about as wide as high. Returns the sheet's columns and rows.
+/// Places the cloths in shelves on a sheet that is about as wide as high. Returns the sheet's columns and rows.
 glsl::ivec2 lay_out(std::vector<glsl::SelfCloth>& cloths) {
     double area = 0;
     int width = 0;
@@ -127,7 +128,8 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         push.thickness = std::max(push.thickness, constants.thickness);
         largest = {std::max(largest.x, constants.grid.x), std::max(largest.y, constants.grid.y)};
         particles += models[k].grid.particle_count();
-        // There is no common motion then: held particles that others are pressed against must not seem to move.
+        // With held cloth there is no common motion: held particles against which others are pressed must not seem to
+        // move.
         if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) held = true;
         for (std::size_t other = 0; other < count; ++other)
             meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);
@@ -146,7 +148,8 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     push.step = static_cast<float>(models[0].substep_length);
     push.least = static_cast<float>(2e-6 * extent);  // a few roundings of the coordinates
     push.margin = static_cast<float>(margin);
-    const auto places = static_cast<std::uint32_t>(particles);  // scene_particle_limit times an entry fits
+    const auto places =
+        static_cast<std::uint32_t>(particles);  // scene_particle_limit times the size of an entry does not overflow
     capacity = {places * capacity_per_particle.pairs, places * capacity_per_particle.near,
                 places * capacity_per_particle.cells, places * capacity_per_particle.touching};
     push.top = top_level(push.grid);
@@ -169,7 +172,7 @@ SelfContact::SelfContact(const std::vector<const SelfContact*>& members)
       meetings(members.front()->meetings) {
     const glsl::ivec2 own = push.grid;
     const int count = static_cast<int>(members.size());
-    // A cloth that is alone on the sheet covers it (shaders/include/self_cloths.h).
+    // If a member has only one cloth, this covers its rectangle of the sheet (shaders/include/self_cloths.h).
     if (count > 1) push.member_size = {stepped(own.x), stepped(own.y)};
     const int across =
         std::clamp(static_cast<int>(std::sqrt(double(count) * push.member_size.y / push.member_size.x)), 1, count);

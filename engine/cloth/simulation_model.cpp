@@ -111,7 +111,8 @@ bool SimulationModel::ends_iterations() const {
     return scene.solver.tolerance > 0 && scene.solver.iterations > 1 && method().iterates();
 }
 
-/// On a GPU all springs of an iteration are one pass, and one that is left out is ten empty ones (docs/devices.md).
+/// On a GPU all springs of an iteration are one pass, and asking whether to skip one costs as much as ten empty passes
+/// (docs/devices.md).
 bool SimulationModel::iterates_cheaply() const {
     constexpr std::uint64_t least_particles = 256 * 256;
     const auto is_large = [](const Cloth& cloth) {
@@ -165,7 +166,7 @@ std::vector<SkippedWork> SimulationModel::skipped() const {
 
 std::vector<Compromise> SimulationModel::compromises() const {
     std::vector<Compromise> all = mesh_fields.compromises(scene);
-    if (closed_loop()) return all;  // it judges what its steps do not follow
+    if (closed_loop()) return all;  // a closed loop judges what its steps do not follow
     for (const ClothModel& cloth : cloths)
         all.insert(all.end(), cloth.scheme.compromises.begin(), cloth.scheme.compromises.end());
     return all;

@@ -27,19 +27,20 @@ double substep_ms(const Method& method, const SceneDescription& scene, const Clo
     return cost.ms + static_cast<double>(cloth.grid[0]) * cloth.grid[1] * cost.particle_ns * 1e-6;
 }
 
-/// No substep of a closed loop is longer, over the time sqrt(size / gravity) of a sheet that swings down. A sheet of 1
-/// m let go level along one edge measured 3.5 mm off after 0.5 s, 13.5 mm with three times that. The motion's error is
-/// estimated from what a tenth of a second adds to it, and here most of it is what earlier errors grew to.
+/// The longest substep of a closed loop, divided by sqrt(size / gravity), the time scale of a sheet that swings down. A
+/// sheet of 1 m that was let go level along one edge was 3.5 mm off after 0.5 s, and 13.5 mm with three times this
+/// substep. The motion's error is estimated from the error that a tenth of a second adds, but here most of it grew from
+/// earlier errors.
 constexpr double longest_substep = 0.0088;
 
-/// Returns the longest substep of a cloth that gravity swings, s.
+/// Returns the longest substep for a cloth that swings under gravity, s.
 double swing_substep(const SceneDescription& scene, const Cloth& cloth) {
     const Vec3 strongest = strongest_gravity(scene);
     const double gravity = std::hypot(strongest[0], strongest[1], strongest[2]);
     return longest_substep * std::sqrt(std::max(cloth.size[0], cloth.size[1]) / gravity);  // infinite without gravity
 }
 
-/// Takes out of a cloth what a key says of single particles or cells of its grid.
+/// Removes from a cloth what a key says about single particles or cells of its grid.
 void leave_out_particles(ClothKey key, Cloth& cloth) {
     switch (key) {
         case ClothKey::pins:
@@ -48,7 +49,7 @@ void leave_out_particles(ClothKey key, Cloth& cloth) {
             return cloth.holes.clear();
         case ClothKey::start:
             return cloth.start.clear();
-        case ClothKey::rest:  // at the start, whose places are gone
+        case ClothKey::rest:  // rest at the start shape, whose places were removed
             cloth.rest = Rest::flat;
             return;
         case ClothKey::velocities:
@@ -82,8 +83,8 @@ void leave_out_particles(ClothKey key, Cloth& cloth) {
     }
 }
 
-/// Returns the substeps that follow what the method must follow of the cloth, at least `substeps`. Compliances fall
-/// with the square of the substeps, so one look tells.
+/// Returns the substeps, at least `substeps`, with which the method follows what it must of the cloth. Compliances fall
+/// with the square of the substeps, so a single evaluation is enough.
 std::uint32_t following_substeps(const Method& method, const SceneDescription& scene, const Cloth& cloth,
                                  std::uint32_t substeps) {
     Cloth small = cloth;  // the answer does not depend on the cloth's size

@@ -1,5 +1,5 @@
-// Chooses what `auto` stands for: the method and the settings that reach a tolerance with the least work, from the laws
-// of each method's stretch error and what its passes cost.
+// Resolves `auto`: chooses the method and the settings that reach a tolerance with the least work, from the laws of
+// each method's stretch error and the costs of its passes.
 #pragma once
 
 #include <algorithm>
@@ -12,28 +12,28 @@
 
 namespace drape {
 
-/// Returns the error that the motion may have where the scene states none, m/s: 0.02 of the longer side (m) a second.
-/// Cloth of less than a metre has 0.02 of what a metre has, times the root of its side over a metre: that is how speeds
-/// under gravity fall with size (Froude), so a model of a scene takes the substeps of the scene in the same motion.
+/// Returns the error of the motion that is allowed where the scene states none, m/s: 0.02 of the longer side (m) per
+/// second. Cloth of less than a metre may have 0.02 m/s times the square root of its side over a metre: speeds under
+/// gravity fall with size in this way (Froude), so a small model of a scene takes the same substeps in the same motion.
 inline double default_motion_limit(double side) { return 0.02 * std::max(side, std::sqrt(side)); }
 
-/// One method with the fewest substeps that its law allows.
+/// One method, with the fewest substeps that its law allows.
 struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
     std::uint32_t least_substeps;  ///< substeps that follow bending (MethodScheme::following_substeps)
-    double predicted_ms;           ///< per frame, all cloths; fit to compare, not to scheme by
-    bool reaches;                  ///< the law promises the tolerance within the limits of the settings
+    double predicted_ms;           ///< per frame, all cloths; only for comparing methods
+    bool reaches;                  ///< by its law, the method keeps the tolerance within the limits of the settings
 };
 
 struct SolverChoice {
-    SolverSettings settings;                  ///< no longer automatic
-    std::vector<SolverCandidate> candidates;  ///< the chosen one first; none when the scene names its method
-    std::string reason;                       ///< one sentence with the laws' numbers
-    std::uint32_t least_substeps;             ///< a closed loop has no fewer
+    SolverSettings settings;                  ///< with the chosen method instead of `auto`
+    std::vector<SolverCandidate> candidates;  ///< the chosen one first; empty when the scene names its method
+    std::string reason;                       ///< one sentence, with the numbers of the laws
+    std::uint32_t least_substeps;             ///< a closed loop takes no fewer
 };
 
-/// Returns the settings that a scene of method `auto` runs with; of any other method, its own.
+/// Returns the settings in use for a scene of method `auto`; for any other method, the scene's own.
 ///
 /// The laws hold for a cloth that hangs L metres and n links of length l below its pins (half its size without pins)
 /// under acceleration g (wind included), with substep h; F = 1.7 for a calm cloth that hangs by an edge, else 5:

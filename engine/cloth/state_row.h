@@ -1,5 +1,5 @@
 // A row of a table of state says what a field is called, what it holds, how large it is, how long it lives, when it is
-// needed and what it starts with. Pure.
+// needed and what it contains at the start. Pure.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 namespace drape {
 
 enum class FieldLife : std::uint8_t {
-    state,     ///< the next frame starts from it: it is carried over a cut and equals the twin's to the bit
-    frame,     ///< it is written before it is read in every frame
-    device,    ///< it stays on the device and means nothing to anybody else
-    constant,  ///< the host gives it at the start and after a cut
-    input,     ///< the host gives it for every frame
+    state,     ///< the next frame starts from it; it is carried over a cut, and equals the twin's to the bit
+    frame,     ///< every frame writes it before reading it
+    device,    ///< it stays on the device, and nothing else uses it
+    constant,  ///< the host writes it at the start and after a cut
+    input,     ///< the host writes it for every frame
 };
 
-/// Shaders may see a field in these ways.
+/// The ways in which shaders may access a field.
 enum class FieldView : std::uint8_t { image, buffer, texel_buffer, image_and_buffer };
 
 struct FieldExtent {
@@ -33,7 +33,7 @@ struct FieldExtent {
     std::uint64_t count() const { return width * height; }
 };
 
-/// `Name` is the enumeration of the table's fields; the functions of a row get a `Context`.
+/// `Name` is the enumeration of the table's fields; the functions of a row take a `Context`.
 template <class Name, class Context>
 struct StateRow {
     Name field;
@@ -43,9 +43,9 @@ struct StateRow {
     FieldLife life;
     bool (*needed)(const Context&);
     FieldExtent (*extent)(const Context&);
-    /// Returns the bytes at the start or after a cut, at most as many as the extent holds. Null stands for zeros.
+    /// Returns the bytes at the start or after a cut, at most as many as the extent holds. Null: zeros.
     std::vector<std::byte> (*start)(const Context&) = nullptr;
-    /// Returns whether a pass writes a constant anew in every frame. Null: none does.
+    /// Returns whether a pass rewrites a constant in every frame. Null: no pass does.
     bool (*rewritten)(const Context&) = nullptr;
 
     bool is_image() const { return view == FieldView::image || view == FieldView::image_and_buffer; }

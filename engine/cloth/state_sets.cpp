@@ -15,7 +15,7 @@ std::vector<StateStep> state_steps(const SimulationModel& model, StateSet set) {
     if (!has(set)) return {};
     std::vector<StateStep> steps;
     if (!is_run || closed) steps.push_back(change_substep);
-    // Lists of contact may be too short.
+    // Frames are done again where contact's lists were too short, which requires the state at their start.
     if (meets || (is_run && closed)) steps.insert(steps.end(), {keep, restore});
     if (is_run && closed) steps.insert(steps.end(), {remember, compare});
     if (is_run && has(StateSet::disturbed)) steps.insert(steps.end(), {disturb, compare_disturbed});

@@ -1,4 +1,4 @@
-// The statistics of a frame in a saved state.
+// Stores the statistics of a frame in a saved state.
 #pragma once
 
 #include "drape/statistics.h"

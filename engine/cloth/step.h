@@ -1,5 +1,5 @@
-// A frame is made of steps, each a kind and the constants that its pass gets. The device's solver adds graph passes per
-// step, and the C++ twin runs one function per step.
+// A frame is a list of steps, each a kind and the constants of its pass. The device's solver adds graph passes for each
+// step, and the C++ twin calls one function for each step.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace drape {
 
-/// The default device breaks off, unseen, after some 65,535 rounds of loops of an invocation (docs/devices.md).
+/// The default device silently breaks off a shader after some 65,535 rounds of loops in an invocation
+/// (docs/devices.md).
 inline constexpr std::size_t most_loop_rounds = 60000;
 
 enum class StepKind {
@@ -59,21 +60,21 @@ enum class StepKind {
 };
 inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
 
-/// The push structure of a step whose constants are its method's own. `SpringPush::first_iteration` is set per
+/// The push structure of a step whose constants depend on the method. `SpringPush::first_iteration` is set in each
 /// iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
-/// A step as a method plans it, for any substep.
+/// A step as a method plans it, the same for every substep.
 struct MethodStep {
     StepKind kind;
     StepConstants constants;
 };
 
-/// `Step::cloth` has the first value where the step is taken for every cloth of the scene, and the second where it is
-/// one of contact, taken once for all of them.
+/// `Step::cloth` has the first value in a step for every cloth of the scene, and the second in a step of contact
+/// between cloths, which is taken once for all of them.
 inline constexpr std::size_t all_cloths = static_cast<std::size_t>(-1), between_cloths = all_cloths - 1;
 
 struct Step {
@@ -82,32 +83,33 @@ struct Step {
     std::uint32_t substep;
     std::uint32_t iteration = 0;
     StepConstants constants{};
-    /// It belongs to the frame's last substep; a spring or line step also to that substep's last iteration, after which
-    /// its tension is the frame's.
+    /// The step belongs to the frame's last substep. A spring or line step also belongs to that substep's last
+    /// iteration, after which its tension is the frame's.
     bool last = false;
-    /// An explicit step takes so many substeps at once, from `substep` on.
+    /// The number of substeps, from `substep` on, that an explicit step takes at once.
     std::uint32_t count = 1;
-    /// It runs only when the decision before it was that the tolerance is not met; the device decides.
+    /// The step runs only if the decision before it was that the tolerance is not met yet; the device decides.
     bool conditional = false;
-    /// A collision, or a second `collider_edges`, goes on from what `collider_edges` left.
+    /// A collision, or a second `collider_edges`, starts from what the first `collider_edges` left.
     bool after_edges = false;
-    /// A collision keeps the surfaces that particles lie on.
+    /// A collision stores the surfaces on which particles lie.
     bool supporting = false;
-    /// A collision leads particles out of overlaps: one of each substep does.
+    /// A collision leads particles out of overlaps: one collision of each substep does.
     bool leading = false;
-    /// A collision ends a substep after contact between cloths, on whose sheet it finds and leaves displacements too.
+    /// A collision ends a substep after contact between cloths; it reads displacements from their sheet and writes them
+    /// there too.
     bool after_impulses = false;
-    /// A prediction writes the displacement to its spare image, from where an odd number of joined steps brings it
-    /// back. A step of all springs that carry tension writes it to the spare images, from where the next one brings it
-    /// back.
+    /// A prediction writes the displacement to its spare image, from which an odd number of joined steps brings it
+    /// back. A step of all springs that carry tension writes the tension to the spare images, from which the next one
+    /// brings it back.
     bool turns = false;
-    /// The kernel of its row that runs it (cloth/kernel_steps.h).
+    /// Which of the kernels of its row runs the step (cloth/kernel_steps.h).
     Kernel kernel = Kernel::plain;
-    /// Invocations of a subgroup where that has parts of a step's lines, else 0.
+    /// Number of invocations in a subgroup, if subgroups solve parts of the step's lines; otherwise 0.
     std::uint32_t subgroup = 0;
-    /// It is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
+    /// The step is taken at once for all cloths that are simulated together with `cloth` (cloth/together.h).
     bool together = false;
-    /// The constants of each of those; none: all have the same.
+    /// The constants of each of those cloths; empty: all have the same.
     std::vector<StepConstants> own{};
 
     /// Returns the step's constants. Throws std::bad_variant_access when they are not a `Push`.

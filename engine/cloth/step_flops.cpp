@@ -26,7 +26,7 @@ double springs_of(const glsl::AllSpringsPush& push) {
 
 double step_flops(const Step& step, const ClothModel& cloth) {
     const double particles = particles_of(cloth.grid.size());
-    const double skipped = step.substep > 0 ? 0 : kernel_flops.advance;  // X stays in a frame's first substep
+    const double skipped = step.substep > 0 ? 0 : kernel_flops.advance;  // a frame's first substep does not advance X
     switch (step.kind) {
         case StepKind::force:
             return particles * (kernel_flops.force - skipped);

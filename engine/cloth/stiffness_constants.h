@@ -8,10 +8,10 @@
 
 namespace drape {
 
-/// Rigid springs have this where a finite stiffness is needed, N/m: far above what any substep resolves.
+/// The stiffness of rigid springs where a finite number is needed, N/m: far above what any substep resolves.
 inline constexpr double rigid_stiffness = 1e12;
 
-/// The constants of one cloth's springs and bending elements, in order of the direction table (docs/physics.md 1).
+/// The constants of one cloth's springs and bending elements, in the order of the direction table (docs/physics.md 1).
 struct StiffnessConstants {
     PerDirection<double> spring{};       ///< N/m, away from borders
     PerDirection<double> rest_length{};  ///< m
@@ -19,7 +19,7 @@ struct StiffnessConstants {
     double twist = 0;                    ///< N/m: energy of a cell twist/2 |x00 - x10 - x01 + x11|^2
 };
 
-/// Returns those on cells of spacing[0] x spacing[1] metres.
+/// Returns the constants for cells of spacing[0] x spacing[1] metres.
 StiffnessConstants stiffness_constants(const Stiffness& stiffness, const std::array<double, 2>& spacing);
 
 }  // namespace drape

@@ -14,7 +14,7 @@ namespace {
 glsl::SubstepChange substep_change(double damping, double substep, double ratio) {
     const double ch = damping * substep, growth = std::expm1(ch);
     const auto rounded = [](double value) { return static_cast<float>(value); };
-    // Beyond that the rest of a velocity would be scaled up without bound.
+    // At larger values the rest of a velocity would be scaled up without bound.
     if (ch < 1e-6 || ch * std::max(ratio, 1.0) > 1)
         return {rounded(ratio), rounded(ratio * ratio), rounded(ratio * ratio), rounded(ratio * ratio)};
     const double G = std::expm1(ch * ratio) / growth;

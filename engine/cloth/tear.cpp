@@ -26,7 +26,7 @@ std::array<Cell, 2> cells_beside(const Thread& thread) {
     return {thread.axis == 0 ? Cell{own.x, own.y - 1} : Cell{own.x - 1, own.y}, own};
 }
 
-/// Returns the threads around a cell, each opposite to the one that is two places on.
+/// Returns the threads around a cell; the thread two places on is the opposite one.
 std::array<Thread, 4> sides_of(const Cell& cell) {
     return {{{cell.x, cell.y, 0}, {cell.x + 1, cell.y, 1}, {cell.x, cell.y + 1, 0}, {cell.x, cell.y, 1}}};
 }
@@ -62,7 +62,7 @@ class Tearing {
     }
     bool ended(const Thread& thread) const { return topology_.cut_fraction(particle(thread), thread.axis) >= 0; }
     bool is_torn(const Thread& thread) const { return component(torn_[particle(thread)], thread.axis) >= 0; }
-    /// Returns whether a side of the cell ended in an earlier frame.
+    /// Returns whether a side of the cell tore in an earlier frame.
     bool is_open(const Cell& cell) const {
         return is_cell(cell) && std::ranges::any_of(sides_of(cell), [&](const Thread& side) { return ended(side); });
     }
@@ -71,7 +71,7 @@ class Tearing {
         return !done_[pieces_[particle(thread)]] && std::ranges::all_of(cells_beside(thread), free);
     }
 
-    /// Returns the springs that bear too much, those that bear most first.
+    /// Returns the springs that bear more than their limit, the most loaded first.
     std::vector<Thread> find_overloaded() const {
         std::vector<Thread> found;
         const glsl::ivec2 size = grid_.size();
@@ -112,7 +112,7 @@ class Tearing {
         touch(thread);
     }
 
-    /// Leads a tear from a thread into a cell and on.
+    /// Continues a tear from a thread into a cell, and on from there.
     void lead(Thread from, Cell into) {
         for (;;) {
             if (!is_cell(into) || is_open(into) || touched_[index(into)]) {
@@ -122,7 +122,7 @@ class Tearing {
             touched_[index(into)] = true;
             const std::array<Thread, 4> sides = sides_of(into);
             const auto entry = static_cast<std::size_t>(std::ranges::find(sides, from) - sides.begin());
-            std::size_t way = (entry + 2) % 4;  // of equal sides the opposite one
+            std::size_t way = (entry + 2) % 4;  // among equal sides, the opposite one
             for (const std::size_t turn : {1u, 3u})
                 if (const std::size_t side = (entry + turn) % 4; load(sides[side]) > load(sides[way])) way = side;
             if (!(load(sides[way]) > 1)) return;
@@ -133,8 +133,8 @@ class Tearing {
         }
     }
 
-    /// The corners of a cell that a diagonal joins hang together around the cell too; where both ways have ended, so
-    /// does the diagonal that is an edge of the mesh. CutTopology sees to the other.
+    /// The corners of a cell that a diagonal joins are also connected around the cell. Where both of these connections
+    /// tore, the diagonal that is an edge of the mesh ends too. CutTopology handles the other diagonal.
     void end_diagonals() {
         const glsl::ivec2 size = grid_.size();
         const auto is_through = [&](const Thread& thread) { return is_torn(thread) || ended(thread); };
@@ -143,7 +143,8 @@ class Tearing {
                 const std::array<Thread, 4> sides = sides_of({column, row});
                 if (!is_cell({column, row}) || std::ranges::none_of(sides, [&](auto& side) { return is_torn(side); }))
                     continue;
-                // The upper and the left side meet where the diagonal does not end, and so do the other two.
+                // The upper and the left side meet at a corner where this diagonal does not end, and so do the other
+                // two.
                 if ((is_through(sides[0]) || is_through(sides[3])) && (is_through(sides[1]) || is_through(sides[2])))
                     component(torn_[particle({column + 1, row, 0})], 3) = 0.5f;
             }
@@ -154,17 +155,17 @@ class Tearing {
     const std::vector<glsl::vec4>& loads_;
     std::vector<std::size_t> pieces_;
     std::vector<glsl::vec4> torn_;
-    std::vector<bool> touched_;       ///< cells that a tear of this frame went through
-    std::vector<bool> done_, grown_;  ///< pieces of which nothing else tears; in which a tear went on or began
+    std::vector<bool> touched_;       ///< cells that a tear of this frame passed through
+    std::vector<bool> done_, grown_;  ///< pieces in which nothing else tears; pieces in which a tear continued or began
 };
 
-/// Returns what a cell bears over what the cloth says.
+/// Returns a cell's load limit divided by the cloth's.
 float tear_factor(const Cloth& cloth, const Grid& grid, const Cell& cell) {
     if (cloth.cell_tear.empty()) return 1;
     return cloth.cell_tear[static_cast<std::size_t>(cell.y) * (grid.columns() - 1) + static_cast<std::size_t>(cell.x)];
 }
 
-/// Limit and weight of the diagonals of a spring; the weaker of its cells decides.
+/// Returns the limit, and the weight of the diagonals, of a spring; the weaker of its cells decides.
 std::array<double, 2> thread_limit(const Cloth& cloth, const Grid& grid, const Thread& thread,
                                    const std::array<double, 2>& spacing) {
     double factor = std::numeric_limits<double>::infinity(), stiffness = 0;
@@ -175,10 +176,11 @@ std::array<double, 2> thread_limit(const Cloth& cloth, const Grid& grid, const T
         stiffness += static_cast<double>(grid.cell_stiffness(cell.x, cell.y));
         ++count;
     }
-    if (count == 0) return {1, 0};  // there is no such spring
+    if (count == 0) return {1, 0};  // the spring does not exist
     if (cloth.tear->strain) return {*cloth.tear->strain * factor, 0};
     const double stretch = cloth.stiffness.stretch * stiffness / count, across = spacing[1 - thread.axis];
-    // Through the width of a cell each of its two diagonals transmits shear (diagonal / across)^2 / 2 of its strain.
+    // Each of a cell's two diagonals transmits (diagonal / across)^2 / 2 of its strain, as shear, through the cell's
+    // width.
     const double diagonal_squared = spacing[0] * spacing[0] + spacing[1] * spacing[1];
     const double of_diagonals = cloth.stiffness.shear * diagonal_squared / (2 * across * across * count);
     return {*cloth.tear->tension * factor / stretch, of_diagonals / stretch};

@@ -1,4 +1,4 @@
-// The limits of a cloth that tears, and the choice of the springs that end: a tear is a line.
+// The limits at which a cloth tears, and the choice of the springs that tear: a tear is a line.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace drape {
 
-/// Returns per particle what the device holds the springs that it owns against, row by row. x, y: the strain of the
-/// spring along the row and along the column that would alone be its limit (m/m); z, w: what the summed strains of the
-/// diagonals beside it, by their shares, add to that strain, 0 where the limit is a strain. The tension of a cloth,
-/// N/m, is what its springs transmit through a line square to one of them, diagonals too, over the width that the
-/// spring's cells give it (docs/physics.md 8).
+/// Returns for each particle, row by row, the limits of the springs that it owns. x, y: the strain of the spring along
+/// the row and along the column at which it tears by itself (m/m). z, w: what the summed strains of the diagonals
+/// beside it, weighted by their shares, add to that strain; 0 where the limit is a strain. The tension of a cloth, N/m,
+/// is the force that its springs, diagonals included, transmit through a line perpendicular to one of them, divided by
+/// the width that the spring's cells give it (docs/physics.md 8).
 std::vector<glsl::vec4> tear_limits(const Cloth& cloth, const Grid& grid);
 
 glsl::TearPush tear_push(const ClothGeometry& cloth);

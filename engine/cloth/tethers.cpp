@@ -21,7 +21,8 @@ struct Nearest {
 
 using Field = std::vector<Nearest>;
 
-/// A box's nearest particle is the one that its limits clamp to; a pin that overrides this one there holds it too.
+/// The box's particle nearest to a particle is found by clamping to the box's limits. If another pin has taken it over,
+/// that pin holds it as well.
 Field straight_distances(const Grid& grid, const std::array<double, 2>& spacing, const IndexBox& box) {
     Field field;
     for (std::uint32_t row = 0; row < grid.rows(); ++row)

@@ -1,4 +1,4 @@
-// The host and the C++ twin make and read texels by these.
+// Functions by which the host and the C++ twin make and read texels.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline glsl::vec3 xyz(const glsl::vec4& v) { return {v.x, v.y, v.z}; }
 inline float& component(glsl::vec4& v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
 inline float component(const glsl::vec4& v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; }
 
-/// Returns the place of a particle's texel, row by row.
+/// Returns the index of a particle's texel, row by row.
 inline std::size_t at(const Grid& grid, glsl::ivec2 p) {
     return static_cast<std::size_t>(p.y) * grid.columns() + static_cast<std::size_t>(p.x);
 }

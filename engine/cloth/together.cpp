@@ -12,10 +12,10 @@ namespace drape {
 
 namespace {
 
-/// A cloth of more particles keeps its own dispatches, which cost little beside what they do (docs/devices.md).
+/// A cloth with more particles keeps its own dispatches, whose overhead is small beside their work (docs/devices.md).
 constexpr std::uint64_t most_particles = 128 * 128;
 
-/// Returns whether two cloths can take the same dispatches, for all that one key says.
+/// Returns whether two cloths can share dispatches as far as one key is concerned.
 bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
     switch (key) {
         case ClothKey::grid:
@@ -28,14 +28,14 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
             return one.cell_stiffness == other.cell_stiffness;
         case ClothKey::cell_density:
             return one.cell_density == other.cell_density;
-        case ClothKey::stiffness_keys:  // the factor of a frame is given to one cloth at a time
+        case ClothKey::stiffness_keys:  // the factor of a frame is passed for one cloth at a time
             return one.stiffness_keys.empty() && other.stiffness_keys.empty();
         case ClothKey::self_collision:
             return one.self_collision.has_value() == other.self_collision.has_value();
         case ClothKey::particle_friction:
         case ClothKey::particle_thickness:
             return has_skin(one) == has_skin(other);
-        // Each cloth has numbers and images of its own; what decides its steps, cloths_together compares.
+        // Each cloth has its own numbers and images for these; cloths_together compares whatever decides the steps.
         case ClothKey::name:
         case ClothKey::size:
         case ClothKey::placement:
@@ -51,7 +51,7 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
         case ClothKey::pins:
         case ClothKey::appearance:
             return true;
-        // No cloths of a scene where one tears are together.
+        // In a scene where a cloth tears, no cloths share dispatches.
         case ClothKey::tear:
         case ClothKey::cell_tear:
             return true;
@@ -59,7 +59,7 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
     return false;
 }
 
-/// Returns whether a key is about looks or about what a cloth's state holds at the start.
+/// Returns whether a key only concerns looks, or what the state of a cloth contains at the start.
 bool is_in_state(ClothKey key) {
     switch (key) {
         case ClothKey::name:
@@ -96,8 +96,8 @@ bool is_in_state(ClothKey key) {
 float sign(float number) { return number > 0 ? 1.0f : 0.0f; }
 glsl::vec4 sign(glsl::vec4 numbers) { return {sign(numbers.x), sign(numbers.y), sign(numbers.z), sign(numbers.w)}; }
 
-/// Leaves of a step's constants what says which step it is, and by which pipeline it is taken: no numbers of the cloth
-/// but whether they are zero, where a specialization constant of the shader is about that.
+/// Reduces a step's constants to those that decide which step it is and which pipeline runs it. Of the cloth's numbers
+/// only whether they are zero remains, where a specialization constant of the shader depends on it.
 struct StructureOf {
     StepConstants operator()(const glsl::ForcePush& push) const { return glsl::ForcePush{push.grid}; }
     StepConstants operator()(const glsl::PredictPush& push) const { return glsl::PredictPush{push.grid}; }
@@ -132,8 +132,8 @@ struct StructureOf {
         structure.bend = sign(push.bend);
         return structure;
     }
-    /// Members' cloths come to contact together, each with its place on the sheet; those of one scene one by one, since
-    /// the last one looks at the others.
+    /// Members' cloths enter contact together, each with its place on the sheet; the cloths of one scene enter one by
+    /// one, since the last one inspects the others.
     StepConstants operator()(glsl::SelfClothPush push) const {
         if (push.member_count == 1) return push;
         push.first = {};
@@ -150,7 +150,7 @@ struct StructureOf {
     }
 };
 
-/// Returns whether a step uses no other data than its constants, the images of the state and lists that can be joined.
+/// Returns whether a step uses no data but its constants, the images of the state and lists that can be joined.
 bool in_images(const Step& step) {
     switch (step.kind) {
         case StepKind::release:
@@ -198,12 +198,12 @@ bool same_steps(const std::vector<MethodStep>& one, const std::vector<MethodStep
     });
 }
 
-/// Boxes and rounds are the same, whose pins may be elsewhere.
+/// Returns whether boxes and rounds are the same; the pins may be elsewhere.
 bool same_rounds(const std::vector<glsl::ivec4>& one, const std::vector<glsl::ivec4>& other) {
     return std::ranges::equal(one, other, {}, &glsl::ivec4::z, &glsl::ivec4::z);
 }
 
-/// The cloths need the same fields and take the same steps of the method.
+/// Returns whether the cloths need the same fields and take the same steps of the method.
 bool same_scheme(const MethodScheme& one, const MethodScheme& other) {
     const auto fields = [](const MethodScheme& scheme) {
         return std::tuple(scheme.spare_state, scheme.spare_displacement, scheme.spare_tension, scheme.second_order,
@@ -214,7 +214,7 @@ bool same_scheme(const MethodScheme& one, const MethodScheme& other) {
            same_rounds(one.nested_table, other.nested_table);
 }
 
-/// The schedule puts the same steps around those of the method.
+/// Returns whether the schedule puts the same steps around those of the method.
 bool same_schedule(const ClothModel& one, const ClothModel& other) {
     const auto steps = [](const ClothModel& cloth) {
         return std::tuple(cloth.has_motion, cloth.has_release, cloth.tethers.empty(), cloth.edge_reach > 0);
@@ -234,13 +234,13 @@ bool same_step(const Step& one, const Step& other) {
            same_structure(one.constants, other.constants);
 }
 
-/// The steps that the cloths of a list still have to take in a substep, each cloth's in its order.
+/// The steps that the cloths of a list have yet to take in a substep, in each cloth's order.
 class Substep {
   public:
     explicit Substep(std::size_t cloths) : steps_(cloths), next_(cloths) {}
     void add(std::size_t place, const Step& step) { steps_[place].push_back(&step); }
 
-    /// Takes a step together where all cloths have come to the same one; until then each goes on alone.
+    /// Takes a step for all cloths at once when all have come to the same one; until then each goes on alone.
     void merge(std::vector<Step>& merged) {
         while (!is_done()) {
             if (all_are_at_one()) {
@@ -266,7 +266,7 @@ class Substep {
             if (!front(place) || !same_step(*front(0), *front(place))) return false;
         return true;
     }
-    /// The step that all cloths are at.
+    /// Returns the step that is next for all cloths.
     Step joined() const {
         Step step = *front(0);
         step.together = true;
@@ -275,7 +275,7 @@ class Substep {
         if (std::ranges::all_of(step.own, is_first)) step.own.clear();
         return step;
     }
-    /// Takes each cloth's next step where some other cloth will not come to such a step, or, with `all`, in any case.
+    /// Takes a cloth's next step for it alone, if some other cloth has no such step left, or, with `all`, in any case.
     /// Returns whether it took any.
     bool go_on_alone(bool all, std::vector<Step>& merged) {
         bool any = false;
@@ -300,7 +300,7 @@ class Substep {
     std::vector<std::size_t> next_;
 };
 
-/// Puts a cloth into the list of those that it is alike, or begins one.
+/// Puts a cloth into the list of those with which it can share dispatches, or begins a new list.
 template <class Alike>
 void put(std::size_t cloth, std::vector<std::vector<std::size_t>>& lists, const Alike& alike) {
     const auto list =
@@ -311,7 +311,7 @@ void put(std::size_t cloth, std::vector<std::vector<std::size_t>>& lists, const 
         list->push_back(cloth);
 }
 
-/// Contact of a member's cloths begins with the last of them, so they are not laid on the sheet together.
+/// Contact of a member's cloths begins with the last of them, so they are not put on the sheet together.
 bool members_meet(const SimulationModel& model) { return model.member_count > 1 && model.self_contact; }
 
 }  // namespace
@@ -364,8 +364,9 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
     for (std::size_t list = 0; list < lists.size(); ++list)
         for (std::size_t within = 0; within < lists[list].size(); ++within)
             places[lists[list][within]] = {list, within};
-    std::map<std::tuple<std::size_t, std::uint32_t, std::size_t>, Substep> substeps;  // by list, substep, part of it
-    std::size_t part = 0;  // counts steps of contact, across which no step may move
+    std::map<std::tuple<std::size_t, std::uint32_t, std::size_t>, Substep>
+        substeps;          // by list, substep, and section of the substep
+    std::size_t part = 0;  // counts steps of contact, past which no step may move
     for (const Step& step : steps) {
         part += step.cloth == between_cloths ? 1 : 0;
         if (const auto place = places.find(step.cloth); place != places.end())
@@ -381,7 +382,7 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
             merged.push_back(step);
             continue;
         }
-        // The first step of a substep's part brings all of its steps.
+        // The first step of a section of a substep adds all steps of the section.
         const auto substep = substeps.find({place->second.list, step.substep, part});
         if (substep == substeps.end()) continue;
         substep->second.merge(merged);

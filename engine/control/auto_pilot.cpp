@@ -100,10 +100,12 @@ Work AutoPilot::attempted(std::uint32_t substeps, std::optional<StateStep> at_en
     return work;
 }
 
-/// Results of frames beside the run tell nothing; their positions are compared.
+/// The pilot learns nothing from the statistics of the companion's and the disturbed run's frames; it compares their
+/// positions with the run's.
 Work AutoPilot::frame_beside(StateSet set) {
     Work work = frame_in(set, model_.companion_substeps(control_.segment().substeps));
-    if (model_.self_contact) work.before = StateStep::keep;  // lists of contact may be too short
+    if (model_.self_contact)
+        work.before = StateStep::keep;  // the frame is done again if contact's lists of pairs turn out too short
     history_in(histories_, set) = work.substeps;
     const bool last = is_last();
     ++attempt_.next;
@@ -126,7 +128,7 @@ std::optional<Work> AutoPilot::next_work() {
         case Phase::done:
             return std::nullopt;
         case Phase::asleep: {
-            // Nothing moves in it; what wakes has the velocity that it fell asleep with.
+            // Nothing moves in a sleeping frame. The saved state keeps the velocity with which it fell asleep.
             KnownFrame still{before_, {.attempts = 0, .asleep = true}};
             note_motion(stated_.error, stated_.sensitivity, still.effort);
             for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
@@ -210,7 +212,7 @@ void AutoPilot::take_fine(const Work& work, const WorkResult& result) {
     conclude();
 }
 
-/// Returns the estimated error over its limit, of the worst cloth.
+/// Returns the estimated error of the worst cloth's motion, divided by its limit.
 double AutoPilot::motion_of(std::span<const double> differences) {
     double worst = 0;
     double& error_of_worst = kept_.effort.motion_error;
@@ -236,7 +238,7 @@ void AutoPilot::conclude() {
     keep();
 }
 
-/// A frame that is not finite, or not plausible, is told of when it is handed out.
+/// Explains why the limits are missed. A frame that is not finite or not plausible is reported when it is handed out.
 void AutoPilot::refuse() {
     const Segment segment = control_.segment();
     const Judgement& judgement = attempt_.judgement;
@@ -268,7 +270,7 @@ void AutoPilot::keep() {
         control_.accumulated(unknown_share);
         return finish();
     }
-    if (stated_.sensitivity.is_sensitive()) return finish();  // there is no error that could be told
+    if (stated_.sensitivity.is_sensitive()) return finish();  // no error of positions is stated for a sensitive run
     attempt_.phase = Phase::companion;
 }
 
@@ -324,7 +326,7 @@ bool AutoPilot::transfer(Archive& archive) {
     const auto rungs = substep_rungs(row_of(model_.scene.solver.method));
     const bool history_can_be =
         histories_[0] == model_.scene.solver.substeps || std::ranges::count(rungs, histories_[0]) == 1;
-    // A sleeping frame needs the one that it repeats.
+    // A sleeping frame repeats the statistics of the frame before it.
     return history_can_be && std::ranges::count(histories_, 0u) == 0 && (!sleep_.remembers() || has_statistics);
 }
 

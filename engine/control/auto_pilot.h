@@ -1,6 +1,6 @@
-// The closed loop of method `auto`: frames are simulated, judged by a few numbers, and kept or done again from their
-// start with more substeps (control/substep_control.h). After frames that are kept their companion follows, and at
-// times the disturbed run (control/motion_error.h, control/sensitivity.h).
+// The closed loop of method `auto`: it simulates frames, judges them by a few numbers, and keeps them or does them
+// again from their start with more substeps (control/substep_control.h). After frames are kept, the companion simulates
+// the same frames, and at times the disturbed run does (control/motion_error.h, control/sensitivity.h).
 #pragma once
 
 #include <string>
@@ -34,31 +34,31 @@ class AutoPilot : public Pilot {
     void read(ByteReader& reader) override;
 
   private:
-    /// The work goes through these in order, but for what is not needed.
+    /// The work on a segment passes through these phases in order, and skips a phase that it does not need.
     enum class Phase {
         done,
-        asleep,     ///< hands out the frame before again
-        coarse,     ///< a probe's frames with half the substeps
-        fine,       ///< the segment's frames
-        hand_out,   ///< a probe's frame, which is not the last
-        companion,  ///< the segment's frames in this set
-        disturbed,  ///< the same in this one
+        asleep,     ///< hands out the previous frame again
+        coarse,     ///< simulates a probe's frames with half the substeps
+        fine,       ///< simulates the segment's frames
+        hand_out,   ///< hands out a frame of the probe other than its last
+        companion,  ///< simulates the segment's frames in the companion's state set
+        disturbed,  ///< simulates them in the disturbed run's state set
         compare_companion,
         compare_disturbed,
         disturb,  ///< begins the disturbed run
         finish,   ///< hands out the segment's last frame
-        restore   ///< takes back what was abandoned
+        restore   ///< restores the state from before the abandoned work
     };
     /// The attempt at a segment.
     struct Attempt {
         Phase phase = Phase::done;
-        std::uint32_t next = 0;  ///< the segment's frame that the phase does next
-        bool keeps = true;       ///< what the segment starts from is yet to be kept
+        std::uint32_t next = 0;  ///< the frame of the segment that the phase does next
+        bool keeps = true;       ///< the state at the start of the segment has yet to be saved
         Judgement judgement = {};
-        KnownFrame last = {};                      ///< the last frame that was run
-        std::optional<FrameFailure> refusal = {};  ///< why it misses what is promised
+        KnownFrame last = {};                      ///< the last frame that was simulated in the run
+        std::optional<FrameFailure> refusal = {};  ///< why the attempt misses what `auto` promises
     };
-    /// What is known of the motion's error.
+    /// What is known about the error of the motion.
     struct Stated {
         MotionError error;
         Sensitivity sensitivity;
@@ -80,7 +80,7 @@ class AutoPilot : public Pilot {
     void conclude();
     void refuse();
     void keep();
-    /// Goes on where the frames of a set beside the run are done.
+    /// Goes to the next phase after all frames of `done`, the companion's or the disturbed run's state set, are done.
     void follow(StateSet done);
     void take_differences(StateStep step, std::span<const double> differences);
     void finish();
@@ -94,8 +94,8 @@ class AutoPilot : public Pilot {
     Histories histories_;
     std::uint32_t simulated_ = 1;
     Attempt attempt_;
-    KeptFrames kept_;                      ///< the frames of the attempt so far; behind it those that were kept
-    std::vector<ClothStatistics> before_;  ///< of the last frame that was kept; empty: there was none
+    KeptFrames kept_;  ///< the frames of the attempt so far; after the attempt, those that were kept
+    std::vector<ClothStatistics> before_;  ///< of the last frame that was kept; empty: none was
     std::vector<std::byte> begun_;         ///< what `write` would have written at `begin`
 };
 

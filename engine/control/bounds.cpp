@@ -17,39 +17,41 @@ namespace drape {
 
 namespace {
 
-/// Where a fold or a wave runs out to a tip or a hem, a hundredth of the mass may end up with all of the kinetic
-/// energy: it is then ten times as fast as the whole was.
+/// Where a fold or a wave runs out to a tip or a hem, a hundredth of the mass may take all of the kinetic energy: it
+/// then moves ten times as fast as the whole cloth did.
 constexpr double whip = 10;
-/// m/s: what gravity gives in the 10 ms of a coarse substep, before springs or contact take it away again.
+/// m/s: the speed that gravity gives in a coarse substep of 10 ms, before springs or contact take it away again.
 constexpr double calm_speed = 0.1;
-/// Cloth that is stretched by e more than its force explains holds m g d e/2, which is not seen as a gain before it is
-/// given back: a tenth is that at e = 0.2, near the most that `no_use_rms` lets pass.
+/// Cloth that is stretched by a strain e beyond what its force explains holds the energy m g d e/2, which counts as a
+/// gain only when it is released. A tenth is this energy at e = 0.2, near the largest strain that `no_use_rms` allows.
 constexpr double energy_share = 0.1;
-/// Where all edges err by a quarter, areas err by half (1.25^2 = 1.56).
+/// Where all edges are a quarter too long, areas are wrong by half (1.25^2 = 1.56).
 constexpr double no_use_rms = 0.25;
-/// A spring is twice as long as its force explains, or pressed to a point.
+/// At this error a spring is twice as long as its force explains, or its ends coincide.
 constexpr double no_use_worst = 1;
-/// K iterations in a substep D leave the worst spring of a sheet of N edges of length h wrong by a share of Lambda =
-/// a D^2 N^2/(h K): where it hangs by an edge by 0.13 at N = 4, and by less with more edges, where it hangs by a corner
-/// by 0.4 to 0.5 (Bounds.TheLawOfStretchIsThatOfSheetsThatHang). The law is the edge's. What other solvers and forces
-/// leave where Lambda is small is given twice the 1 % that method auto keeps.
+/// K iterations in a substep D leave in the worst spring of a sheet, with N edges of length h, an error proportional to
+/// Lambda = a D^2 N^2/(h K). A sheet that hangs by an edge has 0.13 Lambda at N = 4, and less with more edges; one that
+/// hangs by a corner has 0.4 to 0.5 Lambda (Bounds.TheLawOfStretchIsThatOfSheetsThatHang). This law takes the edge's
+/// figure. Where Lambda is small, other solvers and forces leave errors too: they are allowed twice the 1 % that method
+/// auto keeps.
 constexpr double least_stretch = 0.02, stretch_share = 0.12;
-/// It takes the law to 0.36 Lambda, near to a sheet that hangs by a corner.
+/// This factor raises the law to 0.36 Lambda, near the error of a sheet that hangs by a corner.
 constexpr double times_law = 3;
-/// Cloth that rests has the bound without these three times.
+/// The bound for cloth at rest is not raised by `times_law`.
 constexpr double resting_worst = no_use_worst / times_law;
 constexpr double resting_speed = 0.01;  ///< diagonals a second: cloth would take minutes to cross its own length
-/// s in which cloth may keep the strain that it starts with: two swings of one that hangs 1.5 m, 2 pi sqrt(l/g) each.
+/// s for which cloth may keep the strain that it starts with: two swings, 2 pi sqrt(l/g) each, of a cloth that hangs
+/// 1.5 m.
 constexpr double settling_time = 5;
-/// Contact may leave a tenth of a cell of a cloth in what it keeps free: no picture of cells that size shows it.
+/// Contact may leave the cloth a tenth of a cell deep in what it keeps free: no picture of cells that size shows it.
 constexpr double usual_depth = 0.1;
-/// Radians in a substep: the arc leaves its chord by 0.5 % of the radius, and beyond it shaders know no way
-/// (surface_motion in cloth/frame_inputs.cpp).
+/// Radians in a substep. At this angle an arc departs from its chord by 0.5 % of the radius; beyond it shaders do not
+/// know the paths of a collider's points (surface_motion in cloth/frame_inputs.cpp).
 constexpr double most_turn = 0.2;
-/// Particles are seen at a frame's ends alone: in between they are taken to be a quarter faster.
+/// Particles' speeds are known at the start and end of a frame alone; between these they are assumed a quarter higher.
 constexpr double faster_between = 1.25;
-/// Wind that takes a cloth to its own speed more often than this in the time of a frame moves it in jerks: with 20
-/// substeps, each has one.
+/// Wind that brings a cloth to its own speed more often than this within a frame moves the cloth in jerks: with 20
+/// substeps, a jerk in each.
 constexpr double most_wind_rate = 20;
 
 constexpr const char* steadier = "more substeps, weaker forces or stiffness may help";
@@ -66,7 +68,7 @@ std::size_t who_gained_most(const Seen& s) {
 
 bool meets(const Seen& s) { return s.causes.model().self_contact.has_value(); }
 
-/// Cloths that meet give each other energy, so that only what all have is bounded.
+/// Cloths that meet exchange energy, so only their total is bounded.
 Causes::Energy energy_of(const Seen& s) {
     if (!meets(s)) return s.causes.energy(s.cloth, s.now());
     Causes::Energy all;
@@ -82,16 +84,16 @@ double energy_bound(const Seen& s) {
     return energy_share * (energy.scale + 0.5 * energy.mass * calm_speed * calm_speed) + energy.given;
 }
 
-/// The work of stiffness is known of frames in order, which those of a closed loop are not.
+/// The work done by keys of stiffness is known only when frames come in order, which a closed loop's attempts do not.
 double energy_gained(const Seen& s) {
     return s.causes.passive() && (s.in_order || !s.causes.stiffens()) ? energy_of(s).gained : 0;
 }
 
-/// Particles may be so far apart that a spring's length overflows and its error is a NaN.
+/// Particles may be so far apart that a spring's length overflows and its error is a NaN, which counts as infinite.
 double known(double error) { return std::isnan(error) ? std::numeric_limits<double>::infinity() : error; }
 
-/// Returns what the scene itself asks for: its tolerance, for some time what the cloth starts strained by, and for good
-/// what pins hold strained.
+/// Returns the stretch that the scene itself asks for: its tolerance, for some time the strain that the cloth starts
+/// with, and for good the strain between pins.
 double stretch_asked(const Seen& s) {
     const bool settles = s.frame <= settling_time * s.scene().time.fps;
     return std::max(s.causes.model().asked_tolerance, settles ? s.start().strain : s.start().held_strain);
@@ -100,13 +102,13 @@ double stretch_asked(const Seen& s) {
 double bound_of_rms(const Seen& s) { return std::max(no_use_rms, stretch_asked(s)); }
 double bound_of_worst(const Seen& s) { return std::max(no_use_worst, stretch_asked(s)); }
 
-/// Returns whether a cloth is at rest, and the rows before have nothing to say of it.
+/// Returns whether a cloth is at rest and within the bounds of the rows above.
 bool rests_in_bounds(const Seen& s) {
     return s.frame > 0 && !(s.now().largest_speed > resting_speed * s.start().diagonal) &&
            known(s.now().stretch_error_rms) <= bound_of_rms(s) && known(s.now().stretch_error_max) <= bound_of_worst(s);
 }
 
-/// Returns what the springs of a cloth that moves at this speed (m/s) may be wrong by.
+/// Returns the stretch error that the law allows the springs of a cloth that moves at this speed (m/s).
 double stretch_law(const Causes& causes, std::size_t index, double speed) {
     const ClothModel& cloth = causes.model().cloths[index];
     const SceneDescription& scene = causes.model().scene;
@@ -120,18 +122,18 @@ double stretch_law(const Causes& causes, std::size_t index, double speed) {
         const double edges = (axis == 0 ? cloth.grid.columns() : cloth.grid.rows()) - 1;
         most = std::max(most, acceleration * step * step * edges * edges / (cloth.spacing[axis] * iterations));
     }
-    // An edge has two ends, each told in single precision only so well.
+    // An edge has two ends, and rounding to single precision moves each of them.
     const double rounded = causes.starts()[index].distance * std::numeric_limits<float>::epsilon() /
                            std::min(cloth.spacing[0], cloth.spacing[1]);
     return least_stretch + stretch_share * most + 2 * rounded;
 }
 
-/// Returns what the springs of any cloth may err by for six frames. `driven`: with what has moved the cloths until
-/// then.
+/// Returns the stretch error that the springs of any cloth may have for six frames. `driven`: with the acceleration by
+/// what has moved the cloths until then.
 double lasting_bound(const Seen& s, bool driven) {
     const SimulationModel& model = s.causes.model();
     double most = model.asked_tolerance;
-    // Layers are pressed together by more than a law of springs knows.
+    // Contact presses layers together by more than the law of stretch accounts for.
     if (model.closed_loop() || model.self_contact) most = std::max(most, times_law * model.stretch_limits().worst);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
         const Causes::Start& start = s.causes.starts()[cloth];
@@ -157,7 +159,7 @@ double depth_at_start(const Seen& s) {
     return depth;
 }
 
-/// Returns the strain of the worst spring without the solver's error, which is judged as one.
+/// Returns the strain of the worst spring without the solver's error, which a row of its own judges.
 double true_strain(const Seen& s) {
     const StrainStatistics& stretch = s.now().stretch;
     return stretch.spring_count > 0 ? stretch.largest - s.now().stretch_error_max : 0;
@@ -311,7 +313,8 @@ constexpr PassageBound passage_rows[] = {
                "in a substep it turned by more than {bound:.3g} radians, up to which contact is sure",
                "more substeps may help", "0.2: an arc is no straight way"},
      .substeps_help = true,
-     // No less than beyond the bound: instants in between are not looked at.
+     // Where the paths are not known, the value is beyond the bound at least, since instants in between are not
+     // examined.
      .value = [](const Passing& p) { return p.turns_far ? std::max(p.turn, 1.01 * most_turn) : 0; },
      .bound = [](const Passing&) { return most_turn; }},
     {.words = {"radius of a triangle, m",

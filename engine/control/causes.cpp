@@ -13,21 +13,21 @@ namespace drape {
 
 namespace {
 
-/// Speeds of key-framed things are taken over this part of a frame: splines between keys hardly bend in it.
+/// A frame is divided into this number of parts to take speeds of key-framed things: splines hardly bend within one.
 constexpr int parts_of_a_frame = 4;
-constexpr std::size_t frames_remembered = 64;  ///< more than a closed loop goes back
-/// Strains are told of positions in single precision, which tell a strain from a hundredth more of it even where a
-/// cloth is a thousand of its cells away from the origin.
+constexpr std::size_t frames_remembered = 64;  ///< more frames than a closed loop goes back
+/// Strains are computed from positions in single precision. Even where a cloth is a thousand of its cells away from the
+/// origin, rounding changes a strain by less than a hundredth.
 constexpr double rounding = 1.01;
 
-/// Returns how far a point within `reach` of the centre gets by turning between two poses, at most.
+/// Returns the largest distance that a point within `reach` of the centre moves by turning between two poses.
 double turned(const std::array<double, 9>& before, const std::array<double, 9>& now, double reach) {
     double square = 0;
     for (std::size_t k = 0; k < 9; ++k) square += (now[k] - before[k]) * (now[k] - before[k]);
     return square > 0 ? std::sqrt(square) * reach : 0;
 }
 
-/// The ways of what moves in some time, m: of pins, of any point of colliders, of the centres and forms of these alone.
+/// How far things move in some time, m: pins, any point of a collider, and the colliders' centres and forms alone.
 struct Ways {
     double pins = 0, surfaces = 0, centers = 0;
 };
@@ -54,7 +54,7 @@ Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::S
     return most;
 }
 
-/// Returns the largest strain of springs along rows and columns that are held at both ends where the cloth starts.
+/// Returns the largest strain of the springs along rows and columns whose two ends are held at the start.
 double strain_between_pins(const ClothModel& cloth) {
     double largest = 0;
     for (std::uint32_t row = 0; row < cloth.grid.rows(); ++row)
@@ -75,8 +75,8 @@ bool is_stiffened(const Cloth& cloth) {
            cloth.stiffness_keys.end();
 }
 
-/// A cloth that keys make stiffer was stretched by gravity at its softest, f: the strain rho g L/(k f) of a strip that
-/// hangs by its end comes back at the speed of waves sqrt(k/rho) of the whole stiffness.
+/// Gravity stretched a cloth that keys make stiffer when it was at its softest, at the factor f. The strain rho g L/(k
+/// f) of a strip that hangs by its end is then released at the wave speed sqrt(k/rho) of the full stiffness.
 double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
     if (!is_stiffened(cloth)) return 0;
     const double softest = std::ranges::min(cloth.stiffness_keys, {}, &FactorKey::factor).factor;
@@ -100,7 +100,7 @@ Causes::Start start_of(const SceneDescription& scene, const Cloth& described, co
         cloth.velocities.empty() ? dot(cloth.velocity, cloth.velocity) : squares / std::max(statistics.mass, 1e-300);
     start.strain = rounding * cloth.start_strain;
     if (start.strain > 0) start.held_strain = rounding * strain_between_pins(cloth);
-    // Inextensible cloth has no speed of waves: strain is through all of it in a frame.
+    // Inextensible cloth has no wave speed: a strain spreads through all of it within a frame.
     start.wave = described.stiffness.rigid ? start.diagonal * scene.time.fps
                                            : std::sqrt(described.stiffness.stretch / described.areal_density);
     const double mass = cloth.inner_mass * (cloth.grid.columns() - 1) * (cloth.grid.rows() - 1);
@@ -133,14 +133,14 @@ Causes::Causes(const SimulationModel& model) : model_(model) {
     const std::vector<ClothStatistics> statistics = starting_statistics(model);
     for (std::size_t k = 0; k < model.cloths.size(); ++k)
         starts_.push_back(start_of(model.scene, model.scene.cloths[k], model.cloths[k], statistics[k]));
-    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // such cloth may be lifted
+    led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // contact may lift such cloth
     passive_ = !model.windy && !led_apart_ && std::ranges::none_of(model.scene.colliders, moves) &&
                std::ranges::none_of(model.cloths, &ClothModel::has_motion);
     drives_.assign(1, std::vector<Drive>(starts_.size()));
     if (std::ranges::any_of(model.scene.cloths, is_stiffened)) work_ = kept_ = std::vector<double>(starts_.size());
 }
 
-/// Goes on from a frame to the next one.
+/// Advances the drive of a cloth from one frame to the next.
 void Causes::advance(std::size_t cloth, std::uint32_t frame, Drive& drive) const {
     const double part = 1 / (model_.scene.time.fps * parts_of_a_frame);
     const double begin = static_cast<double>(frame) * parts_of_a_frame;
@@ -158,7 +158,8 @@ void Causes::advance(std::size_t cloth, std::uint32_t frame, Drive& drive) const
     if (pace > 0) drive.moved = frame + 1;
 }
 
-/// A long run does not remember all its frames: one that was forgotten is reckoned from the start again.
+/// A long run does not keep the drives of all its frames. For a frame that was dropped they are computed from the start
+/// again.
 void Causes::extend(std::uint32_t frame) {
     if (frame < first_) {
         first_ = 0;
@@ -181,16 +182,16 @@ bool Causes::driven(std::uint32_t frame, double seconds) const {
     return frame - std::min(moved, frame) <= seconds * model_.scene.time.fps;
 }
 
-/// Returns m/s at which cloth moves away that lies nearer to something than it may.
+/// Returns the speed, m/s, at which contact pushes out cloth that is nearer to something than it may be.
 double Causes::pushed() const {
     const double out_of_cloth =
         (model_.self_contact ? recovery_speed * glsl::self_deep_recovery : 0) + (led_apart_ ? parting_speed : 0);
     return model_.scene.colliders.empty() ? out_of_cloth : std::max(out_of_cloth, recovery_speed);
 }
 
-/// Returns the speed that a cloth may have by what acts on it, m/s, without what other cloths give it. Held cloth falls
-/// no farther than twice its diagonal d, so no faster than 2 sqrt(g d). Pins and colliders that moved may have strained
-/// it by their travel over its smaller side, all of it at most, which comes back at the speed of waves.
+/// Returns the speed, m/s, that a cloth may have by what acts on it, other cloths excepted. Held cloth falls at most
+/// twice its diagonal d, so it is no faster than 2 sqrt(g d). Pins and colliders that moved may have strained it by
+/// their travel divided by its smaller side, up to its full length; this strain is released at the wave speed.
 double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
@@ -214,8 +215,8 @@ Causes::Reach Causes::reach(std::uint32_t frame, std::size_t index) const {
     return {reach.speed + 2 * speed, reach.travel + travel};
 }
 
-/// The elastic energy, which is not negative and was 0, is left out: what a solver leaves stretched counts there at the
-/// full stiffness, though it was never stored.
+/// Leaves the elastic energy out, which started at 0 and is never negative: springs that the solver leaves stretched
+/// would count at their full stiffness, though this energy was never stored.
 Causes::Energy Causes::energy(std::size_t index, const ClothStatistics& now) const {
     const Start& start = starts_[index];
     const double moving = 0.5 * now.mass * start.square_speed, led = pushed();

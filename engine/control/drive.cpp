@@ -17,12 +17,14 @@ namespace drape {
 
 namespace {
 
-/// So many instants of a frame are looked at.
+/// Drives are computed at this number of instants in a frame.
 constexpr int parts = 4;
-/// An event is so many times the last probe's drive: fewer substeps are taken where errors are below 0.6 of the limits.
+/// An event drives a cloth at least this many times as hard as the last probe's frames did: fewer substeps are taken
+/// where errors are below 0.6 of their limits.
 constexpr double considerable = 1.7;
 
-/// Returns m/s^2 of the points at `reach` along the axes from a centre that moves by `at`(time) -> (rotation, centre).
+/// Returns the acceleration, m/s^2, of points at distance `reach` along the axes from a centre that moves by `at`(time)
+/// -> (rotation, centre).
 template <class Motion>
 double acceleration(const Motion& at, double reach, double time, double step) {
     const auto before = at(time - step), now = at(time), after = at(time + step);
@@ -51,7 +53,8 @@ double of_pins(const ClothModel& cloth, double time, double step) {
     return most;
 }
 
-/// Between poses vertices go straight on: what they are accelerated by shows over the time from pose to pose.
+/// Vertices move in straight lines between poses, so their acceleration is taken over the time from one pose to the
+/// next.
 double of_form(const Mesh& mesh, double time, double step) {
     const double apart = std::max(step, 1 / mesh.frames_per_second);
     const auto at = [&](double t) { return pose_number(mesh, t); };
@@ -73,7 +76,7 @@ double of_colliders(const SceneDescription& scene, const ClothModel& cloth, doub
 
 std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame) {
     const SceneDescription& scene = model.scene;
-    const double step = 0.5 / (scene.time.fps * parts);  // keeps differences within the frame
+    const double step = 0.5 / (scene.time.fps * parts);  // keeps the differences within the frame
     std::vector<double> drive(model.cloths.size(), 0);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         for (int part = 0; part < parts; ++part) {

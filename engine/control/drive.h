@@ -1,4 +1,4 @@
-// A scene tells ahead what drives its cloths: where that rises, the motion is probed.
+// What drives cloths can be read from the scene in advance; where it increases, the motion is probed.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace drape {
 
-/// Returns per cloth the most of a frame, m/s^2: gravity, the wind's pull (hang.h), and what pins and colliders that
-/// move are accelerated by. A pin that has let go drives nothing.
+/// Returns for each cloth the largest acceleration within a frame, m/s^2: gravity, the wind's pull (hang.h), and the
+/// accelerations of pins and colliders that move. A pin that has let go drives nothing.
 std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame);
 
 class Drive {
@@ -17,13 +17,13 @@ class Drive {
     /// `model` is that of a closed loop, and must outlive this.
     explicit Drive(const SimulationModel& model) : model_(model) {}
 
-    /// Returns whether something happens in the frame that the last probe tells nothing of: a pin lets go, or a cloth
-    /// is driven by so much more than it was there that what was found easy need not be.
+    /// Returns whether something happens in the frame that the last probe says nothing about: a pin lets go, or a cloth
+    /// is driven so much harder than in the probe that the substeps found sufficient there may be too few.
     bool eventful(std::uint32_t frame) const;
-    /// Notes that so many frames from `frame` on are probed.
+    /// Notes that `count` frames from `frame` on are probed.
     void probed(std::uint32_t frame, std::uint32_t count);
 
-    /// Writes or reads what changes, like SubstepControl's.
+    /// Writes or reads what changes, as SubstepControl::transfer does.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(probed_);
@@ -32,7 +32,8 @@ class Drive {
 
   private:
     const SimulationModel& model_;
-    std::vector<double> probed_;  ///< per cloth, the most of the last probe's frames, m/s^2; empty: there was none
+    std::vector<double>
+        probed_;  ///< by cloth, the largest drive in the last probe's frames, m/s^2; empty: there was no probe
 };
 
 }  // namespace drape

@@ -11,8 +11,8 @@ namespace drape {
 
 namespace {
 
-/// The error per second is this share of the distance from the run with half the probe's substeps per second: an error
-/// that falls with the square of the substep is a third of that distance, one that falls with the substep all of it.
+/// The error per second is this share of the distance, per second, from the run with half the substeps. An error that
+/// falls with the square of the substep is a third of this distance; one that falls with the substep is all of it.
 constexpr double estimate_share = 0.5;
 
 }  // namespace
@@ -53,7 +53,7 @@ double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& recor
 }
 
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {
-    if (model.scene.tears()) return 0;  // each of its frames ends with a search
+    if (model.scene.tears()) return 0;  // each frame of a scene that tears ends with a search
     const double fps = model.scene.time.fps;
     const std::uint32_t end = std::max(model.scene.time.frame_count, frame + 1);
     std::uint32_t room = 0;

@@ -1,4 +1,4 @@
-// A closed loop judges a frame by its errors over the limits that the scene sets.
+// A closed loop judges a frame by its errors, each divided by the limit that the scene sets.
 #pragma once
 
 #include <span>
@@ -11,30 +11,32 @@
 
 namespace drape {
 
-/// Returns the frames of a probe: a tenth of a second's. Springs ring much faster, so two runs of that time differ by
-/// how the cloth moves.
+/// Returns the number of frames in a probe, a tenth of a second. Springs vibrate much faster, so two runs over this
+/// time differ by how the cloth moves.
 std::uint32_t probe_length(const SimulationModel& model);
 
-/// Returns the estimated error of the motion, m per second of simulated time, from how far (`difference`, m) the end of
-/// `frame_count` frames is from that of a run with half their substeps.
+/// Returns the estimated error of the motion, m per second of simulated time, from the distance (`difference`, m)
+/// between the positions after `frame_count` frames and those of a run with half the substeps.
 double motion_error(const SimulationModel& model, double difference, std::uint32_t frame_count);
 /// Returns the error of the motion that the scene allows, m/s.
 double motion_limit(const SimulationModel& model, std::size_t cloth);
 
-/// Returns the worst cloth's stretch error over its limits; infinite where something is not finite.
+/// Returns the worst cloth's stretch error divided by its limit; infinite where something is not finite.
 double stretch_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths);
 
-/// Returns how far (m) truncation may hold a particle back in a substep: half of the least distance of two particles.
-/// The springs about it are then stretched or pressed by half, of which no fabric knows (control/watch.h).
+/// Returns how far (m) truncation may hold a particle back in a substep: half of the least distance between two
+/// particles. It would stretch or compress the springs around the particle by half, which no fabric survives
+/// (control/watch.h).
 double lag_limit(const SimulationModel& model);
-/// Returns how far it did in a frame over that. More substeps mostly lessen it, since motions become shorter.
+/// Returns how far truncation held a particle back in a frame, divided by `lag_limit`. More substeps mostly reduce it,
+/// since motions become shorter.
 double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& record);
 
-/// Returns how many frames from `frame` on a probe may have, within its length and the scene: a frame whose cuts act on
-/// the next one, or in which something is let go of, begins another.
+/// Returns how many frames a probe from `frame` on may have, within its usual length and the scene. A probe ends before
+/// a frame that begins with a new cut, or in which a pin lets go.
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame);
 
-/// Returns whether a pin lets go in the frame, which is known ahead.
+/// Returns whether a pin lets go in the frame, which the scene says in advance.
 bool releases(const SimulationModel& model, std::uint32_t frame);
 
 }  // namespace drape

@@ -43,7 +43,7 @@ std::vector<Held> held_particles(const ClothModel& cloth, double time) {
     return held;
 }
 
-/// Returns the nearest point of the collider; a point inside is its own.
+/// Returns the point of the collider nearest to `point`; for a point inside, the point itself.
 Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& point) {
     const double distance = exact::surface_distance(collider, pose, point);
     if (!(distance > 0)) return point;
@@ -59,12 +59,12 @@ Vec3 projected(const Collider& collider, const ColliderPose& pose, const Vec3& p
     return size > 0 ? minus(point, times(distance / size, normal)) : point;
 }
 
-/// Contact keeps a cloth's particles out of larger shapes, so that its triangles are outside the colliders.
+/// Contact keeps particles out of enlarged shapes, so that the cloth's triangles stay outside the colliders themselves.
 std::optional<Finding> pinched_between(const SimulationModel& model, const Cloth& cloth, std::size_t a, std::size_t b,
                                        double time) {
     const Collider &one = model.scene.colliders[a], &other = model.scene.colliders[b];
     const auto stays = [](const Collider& each) { return each.path.keys.empty() && !each.deforms(); };
-    if (stays(one) && stays(other)) return {};  // they are where they were at the start
+    if (stays(one) && stays(other)) return {};  // two colliders at rest are as far apart as at the start
     const double room = room_between(one, other, time), at_start = room_between(one, other, 0);
     if (!(room < at_start)) return {};
     const double kept_out = room_between(contact_shape(cloth, one), contact_shape(cloth, other), 0);
@@ -127,7 +127,7 @@ std::optional<Finding> held_apart(const SimulationModel& model, std::size_t inde
     const ClothModel& cloth = model.cloths[index];
     if (!cloth.rigid || cloth.start_strain > 0) return std::nullopt;
     const std::vector<Held> held = held_particles(cloth, frame / model.scene.time.fps);
-    const std::size_t stride = held.size() / 256 + 1;  // all pairs of many take long
+    const std::size_t stride = held.size() / 256 + 1;  // testing all pairs of many particles takes long
     Finding found{.bound = bound};
     for (std::size_t a = 0; a < held.size(); a += stride)
         for (std::size_t b = 0; b < a; b += stride)
@@ -144,7 +144,7 @@ std::optional<Finding> pinched(const SimulationModel& model, std::size_t cloth, 
     return std::nullopt;
 }
 
-/// Drag 1/2 rho Cd v^2 accelerates an areal density s to v within 2 s / (rho Cd v).
+/// Drag 1/2 rho Cd v^2 accelerates cloth of areal density s to the speed v within the time 2 s / (rho Cd v).
 std::optional<Finding> blown_away(const SimulationModel& model, std::size_t cloth, double bound) {
     const Wind& wind = model.scene.wind;
     if (!wind.blows() || !(wind.drag > 0)) return std::nullopt;

@@ -9,7 +9,7 @@ namespace drape {
 
 namespace {
 
-/// s, within which an error that is not seen any more falls to 1/e.
+/// s, within which a past error that comparisons no longer show decays to 1/e.
 constexpr double hold = 1.5;
 /// s, the shortest time for which an error is allowed.
 constexpr double least_time = 0.5;
@@ -24,8 +24,8 @@ MotionError::MotionError(const SimulationModel& model) : model_(model), held_(mo
 
 double MotionError::order() const { return error_order(row_of(model_.scene.solver.method), model_.closed_loop()); }
 
-/// Few substeps have a companion of another ratio than many. What runs are apart by was made with the one that there
-/// was at the time, the more by the longer substeps.
+/// The ratio of the companion's substeps to the run's depends on the number of substeps. The distance between the runs
+/// arose with the ratios of the past, and long substeps contributed more to it, so the ratio is a weighted average.
 void MotionError::weigh(std::uint32_t substeps, double passed, double kept) {
     const double now = static_cast<double>(substeps) / model_.companion_substeps(substeps);
     const double made = passed * std::pow(substeps, -order()), before = kept * weight_;

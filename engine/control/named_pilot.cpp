@@ -9,7 +9,8 @@ Work NamedPilot::frame_in(StateSet set, std::uint32_t substeps, std::uint32_t hi
     Work work;
     work.frame = simulated_;
     work.set = set;
-    if (model_.self_contact) work.before = StateStep::keep;  // lists of contact may be too short
+    if (model_.self_contact)
+        work.before = StateStep::keep;  // the frame is done again if contact's lists of pairs turn out too short
     work.simulates = true;
     work.substeps = substeps;
     work.history_substeps = history_substeps;

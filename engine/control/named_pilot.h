@@ -1,5 +1,5 @@
-// The pilot of a method that is named takes every frame once, with the substeps that the scene says. Where the position
-// error is to be told, a companion goes ahead (control/motion_error.h).
+// The pilot of a named method simulates every frame once, with the substeps that the scene says. Where the position
+// error is to be reported, the companion simulates each frame first (control/motion_error.h).
 #pragma once
 
 #include "control/motion_error.h"
@@ -33,9 +33,9 @@ class NamedPilot : public Pilot {
     const SimulationModel& model_;
     std::uint32_t simulated_ = 1;
     std::uint32_t companion_substeps_;  ///< of the companion's history
-    std::optional<StateSet> next_;      ///< the next frame is simulated in this set; nothing: it is done
+    std::optional<StateSet> next_;      ///< the next frame is simulated in this set; nothing: the frame is done
     MotionError position_error_;
-    Sensitivity sensitivity_;              ///< never begins: the closed loop alone asks for it
+    Sensitivity sensitivity_;              ///< never begins: only the closed loop uses it
     std::optional<FrameFailure> refusal_;  ///< stays empty
 };
 

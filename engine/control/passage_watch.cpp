@@ -16,13 +16,13 @@ namespace drape {
 
 namespace {
 
-/// A collider as far as it may slip through the cells of a cloth.
+/// The dimensions that decide whether a collider may slip through the cells of a cloth.
 struct Solid {
-    double half;       ///< m: half of what it measures at its thinnest
-    bool edges;        ///< beside its faces
-    bool arcs = true;  ///< its points go along arcs where it turns
+    double half;       ///< m: half of its smallest diameter
+    bool edges;        ///< it has edges beside its faces
+    bool arcs = true;  ///< its points move along arcs where it turns
 };
-/// Nothing: no cell is so wide that a plane fits in.
+/// A plane is no such solid: no cell is so wide that a plane passes through.
 std::optional<Solid> solid(const Plane&) { return std::nullopt; }
 std::optional<Solid> solid(const Sphere& sphere) { return Solid{sphere.radius, false, false}; }
 std::optional<Solid> solid(const Box& box) { return Solid{*std::ranges::min_element(box.half_extents), true}; }
@@ -32,7 +32,7 @@ std::optional<Solid> solid(const Capsule& capsule) {
 }
 std::optional<Solid> solid(const Mesh& mesh) { return Solid{mesh.shape->inner_radius() + mesh.grown, false}; }
 
-/// Returns the least length of a vector that goes straight from one to another.
+/// Returns the least length of a vector that moves in a straight line from `from` to `to`.
 double least_length(const Vec3& from, const Vec3& to) {
     const Vec3 way = minus(to, from);
     const double squared = dot(way, way);
@@ -46,8 +46,8 @@ std::array<double, 2> largest_strains(const ClothStatistics& before, const Cloth
             std::max({0.0, before.shear.largest, now.shear.largest})};
 }
 
-/// Returns the radius of the least circle that holds a triangle of the cloth with its springs that far stretched, m. A
-/// ball whose centre passes through a triangle comes that near to a corner.
+/// Returns the radius, m, of the smallest circle that holds a triangle of the cloth whose springs are stretched by
+/// these strains. A ball whose centre passes through a triangle comes at least this near to a corner.
 double widest_hole(const Cloth& cloth, const std::array<double, 2>& strains) {
     std::array<double, 2> sides{};
     for (std::size_t axis = 0; axis < 2; ++axis)
@@ -61,21 +61,21 @@ double widest_hole(const Cloth& cloth, const std::array<double, 2>& strains) {
     return longest / (2 * std::sqrt(1 - cosine * cosine));
 }
 
-/// Returns the radius of a ball about the centre of mass that holds the cloth: no particle of a sheet is, along it,
-/// farther than 0.6 diagonals from the others on average.
+/// Returns the radius of a ball about the centre of mass that holds the cloth: measured along a sheet, no particle is
+/// farther than 0.6 diagonals on average from the others.
 double radius_of(const Cloth& cloth, double strain) {
     const double scale = std::max({1.0, cloth.placement.scale[0], cloth.placement.scale[1]});
     return 0.6 * std::hypot(cloth.size[0], cloth.size[1]) * scale * (1 + strain);
 }
 
-/// The cloth at the begin and end of a frame, and how long it takes.
+/// The cloth at the start and end of a frame, with the times.
 struct Frame {
     std::uint32_t number, substeps;
     double start, end;  ///< s
     const ClothStatistics &before, &now;
 };
 
-/// Notes how far a collider gets and turns in a substep of the frame, at most.
+/// Records the largest distance and angle that a collider moves and turns in a substep of the frame.
 void note_motion(const Collider& collider, const Frame& frame, Passing& most) {
     const double h = (frame.end - frame.start) / frame.substeps;
     if (!collider.moves()) return;
@@ -92,17 +92,18 @@ void note_motion(const Collider& collider, const Frame& frame, Passing& most) {
     }
 }
 
-/// `own`: the way of the fastest particle in a substep, m.
+/// `own`: how far the fastest particle moves in a substep, m.
 Passing passing_by(const Cloth& cloth, const Collider& collider, const Solid& solid, const Frame& frame, double own) {
     Passing passing{.cloth_way = own,
                     .half = solid.half,
                     .thickness = least_thickness(cloth),
                     .hole = widest_hole(cloth, largest_strains(frame.before, frame.now)),
                     .largest_hole = widest_hole(cloth, {springs_mean, springs_mean})};
-    // Thick cloth is kept off edges by its particles alone, as off round colliders.
+    // Thick cloth is kept off edges, as off round colliders, by its particles alone.
     passing.by_edges = solid.edges && passing.thickness < covering_radius(cloth);
     note_motion(collider, frame, passing);
-    passing.turns_far = solid.arcs && passing.way > 1e14;  // a record says so where it knows no way
+    passing.turns_far =
+        solid.arcs && passing.way > 1e14;  // a record has such a distance where the paths of points are not known
     return passing;
 }
 
@@ -139,7 +140,7 @@ double passage_judgement(const SimulationModel& model, std::uint32_t frame, std:
     const double fps = model.scene.time.fps;
     double worst = 0;
     for (std::size_t cloth = 0; cloth < now.size(); ++cloth) {
-        // Only particles are kept out then, with any substeps.
+        // With this setting contact keeps out only particles, whatever the number of substeps.
         if (model.scene.cloths[cloth].contact == ContactOf::particles) continue;
         const Frame seen{frame, substeps, (frame - 1) / fps, frame / fps, before[cloth], now[cloth]};
         for (const Passage& passage : passages(model, cloth, seen))

@@ -11,18 +11,19 @@
 
 namespace drape {
 
-/// Contact keeps particles out of every collider, however fast; of what is drawn between them the rows of
-/// passage_bounds() say how far. They are asked of a frame's statistics: the fastest particle at its begin and end, the
-/// longest spring, and a ball about the centre of mass that holds the cloth. So what is far from the cloth is left out,
-/// and nothing is read back for it.
+/// Contact keeps the particles of a cloth out of every collider, however fast it moves. For the triangles drawn between
+/// particles, the rows of passage_bounds() say up to which motion contact is reliable. They are evaluated from a
+/// frame's statistics: the fastest particle at its start and end, the longest spring, and a ball about the centre of
+/// mass that holds the cloth. Colliders far from the cloth are left out, and nothing is read back for this.
 struct Passage {
     std::uint8_t row = 0;  ///< of passage_bounds() (bounds.h)
     std::uint32_t frame = 0, cloth = 0, collider = 0;
-    double found = 0, kept = 0;  ///< what there was, and up to which contact is sure
+    double found = 0, kept = 0;  ///< the value found, and the largest one at which contact is reliable
 };
 
-/// Returns by how much the ways and turns of a frame's substeps exceed what contact is sure of, found over kept of the
-/// worst; 0 where nothing is near. More substeps lessen it, unlike a hole. `before`: statistics of the frame's begin.
+/// Returns by what factor the motions and turns of a frame's substeps exceed what contact handles reliably, in the
+/// worst case; 0 where no collider is near. More substeps reduce it, unlike the size of a triangle. `before`:
+/// statistics at the start of the frame.
 double passage_judgement(const SimulationModel& model, std::uint32_t frame, std::uint32_t substeps,
                          std::span<const ClothStatistics> before, std::span<const ClothStatistics> now);
 
@@ -32,7 +33,7 @@ class PassageWatch {
     explicit PassageWatch(const SimulationModel& model) : model_(model) {}
     /// Frames come in order; `substeps`: those of this frame.
     void look(std::uint32_t frame, std::uint32_t substeps, std::span<const ClothStatistics> cloths);
-    /// Returns what to tell the run; nothing if contact kept its bounds in every frame seen.
+    /// Returns the warning for the run; nothing if contact kept its bounds in every frame seen.
     std::optional<std::string> text() const;
 
     /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
@@ -53,8 +54,8 @@ class PassageWatch {
     const SimulationModel& model_;
     std::vector<ClothStatistics> last_;  ///< of the frame seen last; empty before the first
     std::uint32_t last_frame_ = 0;
-    std::uint32_t frames_ = 0;  ///< in which something may have passed
-    Passage first_;             ///< means nothing while there are none
+    std::uint32_t frames_ = 0;  ///< number of frames in which something may have passed
+    Passage first_;             ///< valid only where `frames_` is not 0
 };
 
 }  // namespace drape

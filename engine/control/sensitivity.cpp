@@ -7,14 +7,16 @@ namespace drape {
 
 namespace {
 
-/// The disturbed run begins when the estimated error is this share of what is allowed, where the control begins to act
-/// on it.
+/// The disturbed run begins when the estimated error is this share of the allowed one; there the substep control begins
+/// to react to it.
 constexpr double matters = 0.7;
-/// Runs that were a millionth apart and part by this share of the estimated error soon part by all of it.
+/// Runs that began a millionth apart, and have diverged by this share of the estimated error, soon diverge by all of
+/// it.
 constexpr double as_far = 0.1;
-/// s: without having parted by `on_the_way` of it, the run ends after the first time, in any case after the second.
+/// s: the disturbed run ends after `patience` if it has not diverged by the share `on_the_way` of the error, and after
+/// `most_patience` in any case.
 constexpr double patience = 1, most_patience = 3, on_the_way = 0.01;
-/// s until it may begin again.
+/// s until a disturbed run may begin again.
 constexpr double pause = 2;
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace drape {
 
 namespace {
 
-/// Cloth counts as still below this speed, over motion_limit.
+/// Cloth counts as still below this share of motion_limit.
 constexpr double still_share = 0.01;
 constexpr double rounding = 4 * 0x1p-24;  ///< relative to coordinates
 
@@ -32,7 +32,7 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     };
     if (!std::ranges::all_of(scene.cloths, keeps_stiffness)) return false;
     if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
-    // The step after the last key still sees its motion in the velocities of pins and surfaces.
+    // After the last key, the velocities of pins and surfaces still contain its motion for one step.
     const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };
     const auto rests_too = [&](const Collider& each) { return rests(each, from - 1 / scene.time.fps, to); };
     return std::ranges::all_of(scene.colliders, rests_too) &&
@@ -48,7 +48,7 @@ std::size_t Sleep::remembered() const {
 void Sleep::saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps) {
     double worst = 0;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-        // Rounding the displacements of a substep may look like this speed.
+        // The rounding of a substep's displacements may look like this speed.
         const double noise = rounding * cloths[cloth].largest_distance * substeps * model_.scene.time.fps;
         const double speed = std::max(cloths[cloth].largest_speed - noise, 0.0);
         worst = std::max(worst, speed / (still_share * motion_limit(model_, cloth)));

@@ -10,8 +10,8 @@
 
 namespace drape {
 
-/// Returns whether nothing that the host knows of changes in a frame: no gust, no collider or pin that is moved, no
-/// release, no cutter.
+/// Returns whether nothing that the host knows of changes in a frame: there is no gust, no moving collider or pin, no
+/// release and no cutter.
 bool quiet(const SimulationModel& model, std::uint32_t frame);
 
 class Sleep {
@@ -19,31 +19,32 @@ class Sleep {
     /// `model` is that of a closed loop, and must outlive this.
     explicit Sleep(const SimulationModel& model) : model_(model) {}
 
-    /// Sees the next frame that was simulated, with so many substeps.
+    /// Takes the statistics of the next frame that was simulated, and its number of substeps.
     void saw(const std::vector<ClothStatistics>& cloths, std::uint32_t substeps);
 
-    /// Returns whether the frame is the one before it: for a second no particle was faster than a hundredth of what the
-    /// motion may err per second, nor faster at its end than at its beginning (what is about to topple), rounding
-    /// apart, and the frame is quiet. A frame that is not wakes the cloths, with the state they fell asleep in.
+    /// Returns whether the frame repeats the one before it. It does if the frame is quiet and for a second, apart from
+    /// rounding, no particle was faster than a hundredth of the speed that the motion's limit allows as an error, nor
+    /// faster at the end of this second than at its start (as cloth is that is about to topple). A frame that does not
+    /// repeat wakes the cloths, with the state in which they fell asleep.
     bool asleep(std::uint32_t frame);
 
-    /// Forgets what it saw: a cloth that tore will move.
+    /// Drops the speeds of past frames, because a cloth that tore will move.
     void wake() { speeds_.clear(); }
 
-    /// Writes or reads what changes, like SubstepControl's.
+    /// Writes or reads what changes, as SubstepControl::transfer does.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(speeds_);
         return speeds_.size() <= remembered();
     }
-    /// Returns whether it has seen a frame since it last woke.
+    /// Returns whether it was given a frame since it last woke.
     bool remembers() const { return !speeds_.empty(); }
 
   private:
-    std::size_t remembered() const;  ///< most frames that it remembers
+    std::size_t remembered() const;  ///< the largest number of frames that it remembers
 
     const SimulationModel& model_;
-    std::deque<double> speeds_;  ///< the worst cloth's over its limit, for the last second's frames
+    std::deque<double> speeds_;  ///< the worst cloth's speed divided by its limit, for the frames of the last second
 };
 
 }  // namespace drape

@@ -7,19 +7,21 @@ namespace drape {
 
 namespace {
 
-/// Probes are at most so many times their length apart. A probe costs half as much as its frames: 1 in 1 + 12 is 4 %.
+/// The frames between two probes are at most so many times a probe's length. A probe costs half as much as its frames:
+/// 1 in 1 + 12 is 4 %.
 constexpr std::uint32_t longest_interval = 12;
-/// Where more substeps do not lessen a lag, lags are left alone for so many times a probe's frames.
+/// Where more substeps do not reduce a lag, lags are ignored for this many times a probe's frames.
 constexpr std::uint32_t lag_pause = 12;
-/// A lag that is longer takes the substeps of one that is so many times its limit first.
+/// A lag of more than this many times its limit first gets the substeps of one of this size.
 constexpr double most_lag_followed = 3;
-/// Fewer substeps are tried where their errors are expected below this share of the limits.
+/// Fewer substeps are tried where their errors are expected to be below this share of the limits.
 constexpr double comfort = 0.6;
-/// They are tried without waiting where the errors are below this share of that.
+/// Fewer substeps are tried without waiting where the errors are below this share of `comfort`.
 constexpr double very_easy = 0.2;
-/// Where more substeps do not reduce the motion's error, fewer are used as long as they increase it by less than this.
+/// Where more substeps do not reduce the motion's error, fewer substeps are used as long as they increase it by less
+/// than this factor.
 constexpr double unpredictable_slack = 6;
-/// The motion of a sensitive run, of which means are promised but no positions, may err so many times as much.
+/// A sensitive run promises means but no positions, so the error of its motion may be so many times as large.
 constexpr double sensitive_slack = 3;
 
 }  // namespace
@@ -33,7 +35,7 @@ SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std
       proposed_(std::max(lowest_, rung_of(proposed))),
       rung_(proposed_) {}
 
-/// Returns the first rung of at least so many substeps, or the top.
+/// Returns the first rung with at least so many substeps, or the top.
 std::size_t SubstepControl::rung_of(double substeps) const {
     const auto place = std::ranges::find_if(rungs_, [&](std::uint32_t rung) { return rung >= substeps; });
     return std::min(static_cast<std::size_t>(place - rungs_.begin()), rungs_.size() - 1);
@@ -85,33 +87,34 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     return Verdict::again;
 }
 
-/// Returns whether at the top only the motion fails, and a quarter of its substeps was not tried, to tell if more help.
+/// Returns whether, at the top rung, the motion alone fails, and a quarter of its substeps has not been tried to see
+/// whether more substeps help.
 bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
     return !hopeless_ && segment_.probes && judgement.excess() <= 1 && std::isfinite(judgement.motion);
 }
 
-/// Returns whether something drawn may pass a collider that more substeps would stop. An attempt with a quarter of the
-/// top's looks at the motion alone.
+/// Returns whether a drawn triangle may pass a collider, which more substeps would prevent. The attempt with a quarter
+/// of the top's substeps is judged by its motion alone.
 bool SubstepControl::passes(const Judgement& judgement) const {
     return judgement.passage > 1 && !at_top() && top_motion_ == 0;
 }
 
-/// Returns whether truncation held something back that more substeps would let go on.
+/// Returns whether truncation held a particle back that more substeps would let move on.
 bool SubstepControl::lags(const Judgement& judgement) const {
     return judgement.lag > 1 && !at_top() && top_motion_ == 0 && until_lag_ == 0 && !lags_alike(judgement);
 }
 
-/// Returns whether more substeps have hardly lessened the segment's lag, by less than their square root: springs press
+/// Returns whether more substeps have hardly reduced the segment's lag, by less than their square root: springs press
 /// cloth together, or pull it tight, as far as they would in any step.
 bool SubstepControl::lags_alike(const Judgement& judgement) const {
     return judgement.lag > 1 && lagged_.substeps > 0 && segment_.substeps > lagged_.substeps &&
            judgement.lag > lagged_.lag / std::sqrt(segment_.substeps / lagged_.substeps);
 }
 
-/// Takes the substeps at which ways that are `excess` times too long are short enough. They say nothing of what other
-/// frames need.
+/// Takes the number of substeps at which motions that are `excess` times too long become short enough. It says nothing
+/// about what other frames need.
 SubstepControl::Verdict SubstepControl::follow(double excess) {
-    constexpr double margin = 1.2;  // what is followed more finely may be faster
+    constexpr double margin = 1.2;  // with more substeps, the motion that is followed may be faster
     return try_again_with(std::max(tried_ + 1, rung_of(margin * excess * segment_.substeps)));
 }
 
@@ -121,7 +124,7 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
     return Verdict::again;
 }
 
-/// Returns whether more substeps made nonsense of what with fewer only moved too inexactly: the strain that a long step
+/// Returns whether more substeps broke a motion that fewer followed only too inexactly: the strain that a long step
 /// leaves in rigid cloth becomes speed when the step shrinks a hundredfold.
 bool SubstepControl::turn_back(const Judgement& judgement) {
     const bool only_motion =
@@ -148,7 +151,8 @@ SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& ju
     return Verdict::unpredictable;
 }
 
-/// More substeps hardly helped: goes back to those that erred least, which need not be the most.
+/// More substeps hardly helped: goes back to the attempt with the smallest error, which need not have the most
+/// substeps.
 SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
     if (before_.motion >= judgement.motion) return accept_unpredictable(judgement);
     turned_back_ = true;
@@ -160,7 +164,7 @@ void SubstepControl::accumulated(double share) {
     share_ = share;
 }
 
-/// Without probes the companion alone says whether the motion takes more than the method's law proposed.
+/// Without probes the companion alone shows whether the motion needs more substeps than the method's law proposed.
 void SubstepControl::follow_share(double share) {
     constexpr double high = 0.5, low = 0.1;
     if (share > high && share >= share_ && rung_ < std::min(proposed_ + 6, rungs_.size() - 1))
@@ -174,15 +178,15 @@ bool SubstepControl::hardly_fell(const Judgement& judgement) const {
     return judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
 }
 
-/// Returns whether four times the substeps or more have hardly reduced it.
+/// Returns whether four times the substeps or more have hardly reduced the segment's error of motion.
 bool SubstepControl::futile(const Judgement& judgement) const {
     if (judgement.excess() > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
     if (passes(judgement)) return false;
     return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
 }
 
-/// Learns from two probes: of the same frames, or, for less, of different ones. Contact and crumpling leave less than
-/// the second order of free motion.
+/// Learns the order of convergence from two probes: of the same frames, or, with less weight, of different ones.
+/// Contact and crumpling leave less than the second order of free motion.
 void SubstepControl::learn_order(const Judgement& judgement) {
     const Tried now{static_cast<double>(segment_.substeps), judgement.motion};
     const double seen = std::log(probed_.motion / now.motion) / std::log(now.substeps / probed_.substeps);
@@ -193,8 +197,8 @@ void SubstepControl::learn_order(const Judgement& judgement) {
     probed_ = now;
 }
 
-/// Returns how many times the substeps a failed attempt asks for. The stretch error falls about with their square, the
-/// motion's as attempts have shown; where it hardly fell, the next one tells whether anything helps (futile).
+/// Returns the factor by which a failed attempt wants more substeps. The stretch error falls about with their square,
+/// the motion's as attempts have shown. Where it hardly fell, the next attempt shows whether anything helps (futile).
 double SubstepControl::wanted_factor(const Judgement& judgement) const {
     constexpr double margin = 1.1, most = 4;
     const double motion = judgement.motion / slack_;
@@ -209,7 +213,7 @@ double SubstepControl::wanted_factor(const Judgement& judgement) const {
 void SubstepControl::refine(const Judgement& judgement) {
     const double factor = wanted_factor(judgement);
     if (judgement.excess() > 1) needed_ = tried_ + 1;
-    const bool measured = segment_.probes && judgement.excess() <= 1;  // else its motion is not known
+    const bool measured = segment_.probes && judgement.excess() <= 1;  // otherwise the motion's error is not known
     if (measured && (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps))
         before_ = {static_cast<double>(segment_.substeps), judgement.motion};
     tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
@@ -232,14 +236,14 @@ void SubstepControl::succeed(const Judgement& judgement) {
     }
     slack_ = std::max(1.0, std::min(slack_, unpredictable_slack * judgement.motion));
     until_probe_ = interval_ * probe_length_;
-    // The companion notices what happens between probes, so far from the limit few are enough.
+    // The companion notices what happens between probes, so few probes are enough far from the limit.
     constexpr double far = 0.3;
     interval_ = std::min((share_ < far ? 4 : 2) * interval_, longest_interval);
     consider_fewer(judgement);
 }
 
-/// Returns what a probe says of a rung below, over the limits: the motion's error grows with the order that it showed,
-/// the stretch error as it did towards half the substeps.
+/// Returns the errors, divided by their limits, that a probe predicts for a lower rung: the motion's error grows with
+/// the order that the probe showed, the stretch error as it did towards half the substeps.
 double SubstepControl::expected(const Judgement& judgement, std::size_t rung) const {
     const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
@@ -247,7 +251,8 @@ double SubstepControl::expected(const Judgement& judgement, std::size_t rung) co
     return std::max(judgement.motion / slack_ * std::pow(longer, order_), stretch);
 }
 
-/// Goes down after a few easy probes, at once where it is very easy: as far as is easy, to a quarter at most.
+/// Goes down after a few easy probes, at once after a very easy one: as far as errors stay small, to a quarter of the
+/// substeps at most.
 void SubstepControl::consider_fewer(const Judgement& judgement) {
     if (rung_ == lowest_) return;
     const double next = expected(judgement, rung_ - 1);

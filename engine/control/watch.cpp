@@ -9,8 +9,8 @@ namespace drape {
 
 namespace {
 
-/// Returns the row's value and bound, with what the scene itself holds the cloth at where that decides; a value that is
-/// no more than 0, or none, is nothing to judge.
+/// Returns the row's value and bound. Where it decides, the bound includes how the scene itself holds the cloth. A
+/// value that is not above 0 needs no judgement.
 std::pair<double, double> measured(const ClothBound& row, const Seen& seen) {
     const double value = row.value(seen);
     if (!(value > 0)) return {0, 1};
@@ -21,10 +21,10 @@ std::pair<double, double> measured(const ClothBound& row, const Seen& seen) {
 
 Implausible held_against(const ClothBound& row, const Seen& seen) {
     const auto [value, bound] = measured(row, seen);
-    // The device squares in single precision: what overflowed there is at least this.
+    // The device squares in single precision: a value that overflowed there is at least this large.
     Implausible found{
         .excess = (std::isinf(value) ? 1e19 : value) / bound, .value = value, .bound = bound, .cloth = seen.cloth};
-    if (!(found.excess > 1)) return found;  // nobody asks for its words
+    if (!(found.excess > 1)) return found;  // nobody needs the words of a finding within its bound
     found.what = sentence(row.words, {.value = value, .bound = bound});
     found.criterion = row.words.name;
     found.remedy = row.words.remedy;
@@ -32,7 +32,7 @@ Implausible held_against(const ClothBound& row, const Seen& seen) {
     return found;
 }
 
-/// Returns ", the particle in column 3, row 4"; nothing where there is none.
+/// Returns ", the particle in column 3, row 4"; empty without a particle.
 std::string place_text(const Grid& grid, std::optional<std::uint32_t> particle) {
     if (!particle) return {};
     return fmt::format(", the particle in column {}, row {}", *particle % grid.columns(), *particle / grid.columns());
@@ -51,7 +51,8 @@ Seen Watch::seen(std::uint32_t frame, std::size_t cloth, std::span<const ClothSt
     return seen;
 }
 
-/// `in_order`: the frame is kept, and all before it were asked about; else a closed loop asks whether it may be.
+/// `in_order`: the frame is kept, and all earlier frames were judged; otherwise a closed loop asks whether it may keep
+/// it.
 Implausible Watch::worst(std::uint32_t frame, const std::vector<ClothStatistics>& cloths, bool in_order) const {
     Implausible worst;
     const auto look = [&](const ClothBound& row, Seen seen) {
@@ -113,12 +114,13 @@ std::optional<Implausible> Watch::implausible(std::uint32_t frame, const std::ve
     const Implausible found = worst(frame, cloths, true);
     if (causes_.passive() && causes_.stiffens())
         for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
-            // Springs hold no more than has been lost or given: what an error put into them is no reason for more work.
+            // Springs hold no more energy than the cloth has lost or was given: what an error put into them does not
+            // justify more work.
             const double spare = spare_energy(seen(frame, cloth, cloths));
             causes_.keep(cloth, std::max(std::min(spare, cloths[cloth].elastic_energy), 0.0));
         }
     if (!(found.excess > 1)) return std::nullopt;
-    recent_.clear();  // whether it settles is no question any more
+    recent_.clear();  // from here on the message about settling makes no sense
     return found;
 }
 

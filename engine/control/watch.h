@@ -1,5 +1,5 @@
-// Holds every frame of a run against the table of bounds (bounds.cpp), which follow from what acts on the cloth and are
-// far above what it ever does.
+// Compares every frame of a run with the table of bounds (bounds.cpp). The bounds follow from what acts on the cloth,
+// and lie far above what it ever does.
 #pragma once
 
 #include <deque>
@@ -11,14 +11,14 @@
 
 namespace drape {
 
-/// A frame has something over its bound.
+/// A value of a frame that exceeds its bound.
 struct Implausible {
-    double excess = 0;      ///< value over bound: 1 is the most there can be
+    double excess = 0;      ///< value divided by bound; above 1 it is implausible
     std::string what;       ///< "moves at 8e+03 m/s, where at most 120 m/s are explained", of the particle or the cloth
     std::string criterion;  ///< "speed, m/s"
     std::string remedy = {};  ///< what a user can do
     double value = 0, bound = 0;
-    std::optional<std::uint32_t> particle = {};  ///< index; nothing: it is not about a single one
+    std::optional<std::uint32_t> particle = {};  ///< index; nothing: the finding is not about a single particle
     std::size_t cloth = 0;
 };
 
@@ -27,26 +27,28 @@ class Watch {
     /// `model` must outlive this.
     explicit Watch(const SimulationModel& model);
 
-    /// Looks at what moves the cloths until a frame's end, by the model's paths as they are now. The others do it where
-    /// it was not done.
+    /// Computes what moves the cloths until a frame's end, by the model's paths as they are now. `excess` and
+    /// `implausible` do it themselves where it was not done.
     void extend(std::uint32_t frame) { causes_.extend(frame); }
-    /// Returns the worst cloth's largest value over its bound, of the rows for which a closed loop does a frame again.
+    /// Returns the largest ratio of a value to its bound over all cloths, of the rows for which a closed loop does a
+    /// frame again.
     double excess(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
-    /// Returns what makes a frame no result: of the first cloth that is beyond a bound the value that is farthest
-    /// beyond, else the first of those that are of all cloths. Ask it of each frame once, in order. What a frame is
-    /// judged by does not depend on how many follow it.
+    /// Returns why a frame is no result. It is the value farthest beyond its bound, of the first cloth that has one;
+    /// else the first one that is about all cloths together. Call it once for each frame, in order. The number of later
+    /// frames does not change how a frame is judged.
     std::optional<Implausible> implausible(std::uint32_t frame, const std::vector<ClothStatistics>& cloths);
 
-    /// Returns what to say of the frames that were asked about, beside what is implausible.
+    /// Returns the warnings about the frames that `implausible` was given.
     std::vector<std::string> warnings() const;
 
-    /// The worst stretch errors, RMS and of a single spring, of all frames that were asked about. Nothing: none was.
+    /// The worst stretch errors, as RMS and of a single spring, over all frames that `implausible` was given. Nothing:
+    /// there was none.
     const std::optional<double>& worst_rms() const { return worst_rms_; }
     const std::optional<double>& worst_max() const { return worst_max_; }
 
-    /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false where what
-    /// was read is nothing that it can come to.
+    /// Writes or reads what it remembers of earlier frames, by a ByteWriter or a ByteReader. Returns false if what was
+    /// read is impossible.
     template <class Archive>
     bool transfer(Archive& archive) {
         archive(recent_, last_frame_, last_cloth_, worst_rms_, worst_max_, starts_depth_);
@@ -60,10 +62,10 @@ class Watch {
     }
 
   private:
-    /// A warning tells of its first frame and of the worst one.
+    /// A warning names its first frame and the worst one.
     struct Note {
         std::uint32_t first = 0, worst = 0, cloth = 0;
-        double value = 0;  ///< 0: there was nothing
+        double value = 0;  ///< 0: nothing to warn about
         std::optional<std::uint32_t> particle = {};
     };
     Seen seen(std::uint32_t frame, std::size_t cloth, std::span<const ClothStatistics> all) const;
@@ -72,10 +74,11 @@ class Watch {
 
     Causes causes_;
     std::optional<double> worst_rms_, worst_max_;
-    std::vector<Note> notes_;                        ///< of the rows that warn, in their order
-    std::deque<double> starts_depth_;                ///< m, each cloth's penetration in frame 0
-    std::deque<double> recent_;                      ///< largest stretch error of a spring, by frame
-    std::uint32_t last_frame_ = 0, last_cloth_ = 0;  ///< the last of these, and its cloth with the worst spring
+    std::vector<Note> notes_;          ///< one for each row that warns, in their order
+    std::deque<double> starts_depth_;  ///< m, by cloth, the penetration in frame 0
+    std::deque<double> recent_;        ///< by frame, the largest stretch error of a spring
+    std::uint32_t last_frame_ = 0,
+                  last_cloth_ = 0;  ///< the last frame in `recent_`, and its cloth with the worst spring
 };
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// The three dump formats share this; `dump` in plan.h chooses among them.
+// Functions that the three dump formats share; `dump` in plan.h chooses among them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace drape::graph {
 
-/// Folds passes that declare the same under the same label and stage.
+/// Folds passes with the same declarations, label and stage.
 Folding fold_passes(const Graph& graph, const Plan& plan);
 
 /// Skipped passes of one label and one reason are counted together, in order of first appearance.
@@ -21,7 +21,7 @@ struct SkippedGroup {
 std::vector<SkippedGroup> group_skipped(const Graph& graph, const Plan& plan);
 
 std::size_t barrier_count(const Plan& plan);
-std::string format_name(VkFormat format);    ///< "rgba32f", or "VkFormat 37" for a format that Drape has no word for
+std::string format_name(VkFormat format);    ///< "rgba32f", or "VkFormat 37" for a format without a name in Drape
 std::string size_text(std::uint64_t bytes);  ///< "1.5 MiB"
 
 std::string dump_text(const Graph& graph, const Plan& plan);

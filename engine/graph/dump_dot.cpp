@@ -11,7 +11,7 @@
 namespace drape::graph {
 namespace {
 
-/// Lines stand below each other: side by side they would make the picture wide.
+/// Lines are placed below each other: side by side they would make the picture wide.
 std::string in_quotes(const std::vector<std::string>& lines, const char* line_end = "\\n") {
     std::string out = "\"";
     for (const std::string& line : lines) {
@@ -65,7 +65,7 @@ class DotWriter {
         }
     }
 
-    /// An arrow comes from the node that made what a pass reads: a pass, or the resource as it was before the frame.
+    /// An arrow starts at the node that made what a pass reads: a pass, or the resource as it was before the frame.
     void arrow_to(std::uint32_t resource, std::uint32_t position) {
         const std::uint32_t reader = folding_.representative[position];
         const std::string& name = graph_.resources()[resource].name;

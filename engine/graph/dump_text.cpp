@@ -9,7 +9,7 @@
 namespace drape::graph {
 namespace {
 
-/// Cells are padded to their column's widest; the last one is left ragged.
+/// A table in text form. Cells are padded to the width of their column; the last column is not.
 template <std::size_t Columns>
 class Table {
   public:
@@ -18,7 +18,7 @@ class Table {
         cells[0].insert(0, indent * 2, ' ');
         rows_.push_back({std::move(cells), {}});
     }
-    /// Adds a line that is no row and takes no part in the widths.
+    /// Adds a line that is no row and does not affect the widths of columns.
     void line(std::string text) { rows_.push_back({{}, std::move(text)}); }
 
     std::string text() const {
@@ -88,7 +88,7 @@ class PassLister {
     const Graph& graph_;
     const Plan& plan_;
     Folding folding_;
-    std::vector<std::pair<std::size_t, std::size_t>> barriers_;  ///< least and most, by representative
+    std::vector<std::pair<std::size_t, std::size_t>> barriers_;  ///< the smallest and largest number, by representative
     PassTable table_;
 };
 

@@ -71,8 +71,8 @@ class Recorder {
         if (queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query);
     }
 
-    /// The device copies the timestamps, since a host that asks the default device for them waits until it has nothing
-    /// left to do (docs/devices.md).
+    /// The device copies the timestamps, since a query by the host makes the default device finish all of its work
+    /// first (docs/devices.md).
     static void copy_timestamps(VkCommandBuffer commands, VkQueryPool queries, std::uint32_t count,
                                 const vulkan::Buffer& ticks) {
         vkCmdCopyQueryPoolResults(commands, queries, 0, count, ticks.handle(), 0, sizeof(std::uint64_t),
@@ -95,7 +95,7 @@ class Recorder {
         vkCmdPipelineBarrier2(commands, &dependency);
     }
 
-    /// One command does all: layout changes as image barriers, the rest merged into one memory barrier.
+    /// A single command contains everything: layout changes as image barriers, the rest merged into one memory barrier.
     void emit(VkCommandBuffer commands, const std::vector<Barrier>& barriers) const {
         if (barriers.empty()) return;
         auto memory = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -161,7 +161,7 @@ void RecordedPlan::set_brackets(const Graph& graph, const Plan& plan, TimestampM
         const bool continues =
             timestamps == TimestampMode::stages && !brackets_.empty() && brackets_.back().first == name;
         if (continues) continue;
-        // A timestamp costs 10 us on a CPU device: the end of one bracket is the begin of the next.
+        // A timestamp costs 10 us on a CPU device, so the end of one bracket is also the begin of the next.
         const auto query = static_cast<std::uint32_t>(brackets_.size());
         brackets_.push_back({name, {query, query + 1}});
         bracket_begins_.push_back(position);
@@ -196,7 +196,7 @@ std::vector<Timing> RecordedPlan::timings(std::uint32_t slot) const {
     if (brackets_.empty()) return timings;
     std::vector<std::uint64_t> ticks(brackets_.size() + 1);
     std::memcpy(ticks.data(), ticks_[slot].mapped().data(), std::span(ticks).size_bytes());
-    if (ticks.back() == 0) return timings;  // it was never submitted
+    if (ticks.back() == 0) return timings;  // the plan was never submitted
     const std::uint32_t bits = device_.timestamp_valid_bits();
     const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     const double milliseconds_per_tick = static_cast<double>(device_.limits().timestampPeriod) * 1e-6;

@@ -1,4 +1,4 @@
-// Realises the resources of a set of graphs, records each plan once per frame slot, resubmits it and reads timestamps.
+// Creates the resources of a set of graphs, records each plan once per frame slot, resubmits it and reads timestamps.
 // No other part of the graph needs a device.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace drape::graph {
 
-/// Holds the images and buffers, by name, that all plans of a scene share. What no plan uses is not made.
+/// Holds the images and buffers, by name, that all plans of a scene share. Resources that no plan uses are not created.
 class ResourcePool {
   public:
     /// Sums all sizes first and throws VulkanError before allocating when they exceed the budget. Usage flags are what
@@ -42,23 +42,23 @@ class ResourcePool {
     std::map<std::string, std::vector<vulkan::Buffer>> buffers_;  ///< 1 or frame_slot_count copies
 };
 
-/// Returns the bytes of what these plans use together.
+/// Returns the bytes of all resources that these plans use together.
 std::uint64_t planned_bytes(std::span<const std::pair<const Graph*, const Plan*>> plans);
 
-/// Returns why the device cannot give an image a buffer view, of rows `row_pitch` texels apart where that is not 0;
-/// empty when it can. Callers without one use the image alone.
+/// Returns why the device cannot give an image a buffer view with rows `row_pitch` texels apart (0: any); empty when it
+/// can. Callers without a buffer view use the image alone.
 std::string buffer_view_obstacle(const vulkan::Device& device, const ImageDeclaration& image,
                                  std::uint32_t row_pitch = 0);
 
 enum class TimestampMode { none, stages, passes };
 
-/// A draw gives a variable of its shaders this resource.
+/// The resource that a draw binds to a variable of its shaders.
 struct Binding {
     std::string_view variable;
     Handle handle;
 };
 
-/// A pass's execute function gets this. Every access is compared with what the pass declared.
+/// The argument of a pass's execute function. Every access is compared with what the pass declared.
 class PassContext {
   public:
     VkCommandBuffer commands() const { return commands_; }
@@ -66,9 +66,9 @@ class PassContext {
     /// Return the resource. They throw GraphError, naming pass and resource, when the pass did not declare the handle.
     const vulkan::Image& image(Handle handle) const;
     const vulkan::Buffer& buffer(Handle handle) const;
-    /// Returns the texels from one row to the next in the buffer view of an image that has one.
+    /// Returns the number of texels from one row to the next in the buffer view of an image that has one.
     std::uint32_t row_pitch(Handle handle) const { return image(handle).row_pitch(); }
-    /// Returns the image's layout during this pass, that of its declared access. Throws as `image`.
+    /// Returns the image's layout during this pass, which its declared access decides. Throws as `image` does.
     VkImageLayout layout(Handle handle) const;
 
     /// Binds the pipeline, pushes every declared use that has a variable, and the push constants, then dispatches
@@ -82,8 +82,8 @@ class PassContext {
     void dispatch_indirect(const vulkan::ComputePipeline& pipeline, const PushConstants& push_constants,
                            Handle arguments, std::uint64_t offset);
 
-    /// Binds the pipeline and pushes one handle per descriptor, as strictly, in a pass that draws several things. Each
-    /// stage that uses a descriptor must read the handle by the pass's declaration.
+    /// Binds the pipeline and one handle per descriptor, with the same checks, in a pass that draws several things. The
+    /// pass must have declared a read of the handle for each stage that uses the descriptor.
     void bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings);
     /// Throws GraphError when the shaders' push constants have another layout.
     void push(const vulkan::Pipeline& pipeline, const PushConstants& push_constants);
@@ -127,13 +127,13 @@ class RecordedPlan {
 
     VkCommandBuffer commands(std::uint32_t slot) const { return commands_[slot]; }
     /// Returns the times of the slot's last finished submit, in order, summed by name (stages) or by label (passes).
-    /// Ticks are masked by timestampValidBits, times timestampPeriod in double; empty when the device has no
-    /// timestamps, and before the first submit.
+    /// Ticks are masked by timestampValidBits and multiplied by timestampPeriod in double precision. Empty when the
+    /// device has no timestamps, and before the first submit.
     std::vector<Timing> timings(std::uint32_t slot) const;
 
   private:
     struct Empty {};
-    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    /// Makes an object without handles. After this constructor, an exception in the delegating one runs the destructor.
     RecordedPlan(const vulkan::Device& device, Empty) : device_(device) {}
     void set_brackets(const Graph& graph, const Plan& plan, TimestampMode timestamps);
     void make_pools();
@@ -142,7 +142,7 @@ class RecordedPlan {
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
     std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};
-    std::vector<vulkan::Buffer> ticks_;  ///< per slot: its queries' results, all 0 before its first submit
+    std::vector<vulkan::Buffer> ticks_;  ///< by slot: the results of its queries, all 0 before its first submit
     /// Name, first and last query; neighbours share one. Each begins with the pass of the same place in
     /// bracket_begins_.
     std::vector<std::pair<std::string, std::array<std::uint32_t, 2>>> brackets_;

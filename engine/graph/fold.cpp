@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest_block = 2048;  // items; bounds the search on sequences without repetition
 
-/// Equal ids are equal content, because leaves and repeated blocks share one numbering.
+/// Folds a sequence. Equal ids mean equal content, because leaves and repeated blocks share one numbering.
 class Folder {
   public:
     explicit Folder(std::span<const std::uint32_t> sequence) {

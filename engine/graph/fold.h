@@ -10,13 +10,13 @@ namespace drape::graph {
 /// A position of the sequence, or a block that comes `count` times in a row.
 struct Fold {
     std::uint32_t count = 1;
-    std::uint32_t position = 0;  ///< the first place where it comes
-    std::vector<Fold> body;      ///< parts of one repetition; empty: the position itself
+    std::uint32_t position = 0;  ///< the first position at which it occurs
+    std::vector<Fold> body;      ///< parts of one repetition; empty: the item at `position`
 };
 
 struct Folding {
     std::vector<Fold> folds;
-    /// Every position has one that stands for it: the same place in the first repetition.
+    /// For every position, the position that represents it: the same place in the first repetition.
     std::vector<std::uint32_t> representative;
 };
 

@@ -25,7 +25,7 @@ bool is_transfer(Access access) { return access == Access::transfer_read || acce
     throw GraphError(fmt::format("pass '{}', resource '{}': {}", pass.name, resource, mistake));
 }
 
-/// The handle must name a resource of this graph at its newest version.
+/// Returns the handle's resource. The handle must have the newest version of a resource of this graph.
 const Resource& newest(const std::vector<Resource>& resources, const Pass& pass, Handle handle, std::string_view verb) {
     if (!handle.valid()) {
         throw GraphError(fmt::format("pass '{}' {}s a handle that names no resource", pass.name, verb));
@@ -43,7 +43,8 @@ const Resource& newest(const std::vector<Resource>& resources, const Pass& pass,
     if (handle.slice != UINT32_MAX && handle.slice >= resource.image.slices.size())
         refuse(pass, resource.name,
                fmt::format("{} of slice {}, it has {}", verb, handle.slice, resource.image.slices.size()));
-    // This comes before the versions are compared: the handle that this pass's own write returned is the newest.
+    // This check precedes the comparison of versions, since the handle that this pass's own write returned is the
+    // newest.
     for (const Use& use : pass.uses) {
         if (use.handle.resource != handle.resource || !is_write(use.access)) continue;
         refuse(pass, resource.name,
@@ -80,7 +81,7 @@ void check_kind(const Pass& pass, const Resource& resource, Access access) {
     }
 }
 
-/// Within a pass nothing can be put between two uses, so an image must serve all of them in one layout.
+/// No barrier can stand between two uses within a pass, so an image must have the same layout for all of them.
 void check_against_others(const Pass& pass, const Resource& resource, const Use& use,
                           const std::vector<Resource>& resources) {
     for (const Use& other : pass.uses) {
@@ -90,8 +91,8 @@ void check_against_others(const Pass& pass, const Resource& resource, const Use&
                    fmt::format("{} and {} in one pass need two layouts", access_name(other.access),
                                access_name(use.access)));
         }
-        // One version may be read through several variables, as a shader's variables may share a resource; what a
-        // shader updates is read without one.
+        // A version may be read through several variables, since a shader's variables may share a resource; a resource
+        // that a shader updates in place is read without a variable.
         if (other.handle == use.handle && other.access == use.access && use.variable == other.variable) {
             refuse(pass, resource.name, fmt::format("{} declared twice", access_name(use.access)));
         }
@@ -249,7 +250,7 @@ void Graph::add_pass(PassName name, const std::function<void(PassSetup&)>& setup
     try {
         setup(declaration);
     } catch (...) {
-        // A refused pass leaves no trace: the handles before it stay good.
+        // A refused pass changes nothing: handles from before it remain valid.
         for (const Use& use : pass.uses) {
             if (is_write(use.access)) --resources_[use.handle.resource].version;
         }

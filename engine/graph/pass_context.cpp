@@ -68,7 +68,7 @@ void PassContext::check_resource(const vulkan::Pipeline& pipeline, std::string_v
     }
     if (!as_image && resource.image.buffer_view) {
         const std::uint32_t texel = vulkan::texel_size(resource.image.format), stride = descriptor->stride;
-        // Structs are for passes that write parts of texels, or two at a time.
+        // Structs are for passes that write parts of texels, or two texels at a time.
         const bool fits = descriptor->element ? stride > 0 && stride % texel == 0 : stride == texel;
         if (!fits)
             unfit(fmt::format("is a buffer of {} texels, the shader has other elements",
@@ -169,7 +169,7 @@ void PassContext::push(const vulkan::Pipeline& pipeline, const PushConstants& pu
     const std::string difference = vulkan::push_constant_difference(pipeline.push_constants(), push_constants.layout);
     if (!difference.empty()) refuse(pipeline, "push constants", difference);
     if (!push_constants.layout) return;
-    // The bytes that C++ adds at the end are no part of the pipeline's range.
+    // Padding that C++ adds at the end is not part of the pipeline's range.
     vkCmdPushConstants(commands_, pipeline.layout(), pipeline.push_constant_stages(), 0,
                        pipeline.push_constants()->size, push_constants.bytes.data());
 }

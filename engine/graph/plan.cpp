@@ -22,7 +22,7 @@ bool always_wanted(const Resource& resource) {
     return resource.lifetime == Lifetime::persistent || resource.lifetime == Lifetime::host_output;
 }
 
-/// Version 0 has contents where there is something to read before this plan has written it.
+/// Returns whether version 0 has contents, so that a pass may read it before this plan writes it.
 bool has_initial_contents(const Resource& resource) {
     return resource.lifetime != Lifetime::transient && resource.lifetime != Lifetime::host_output;
 }
@@ -54,7 +54,7 @@ class Culling {
     bool alive(std::size_t pass) const { return alive_[pass]; }
 
     void explain(std::vector<Remark>& skipped) const {
-        // The culled passes that read each resource let the end of a dead chain be told.
+        // The culled passes that read each resource, so that the reason can name the end of a dead chain.
         std::vector<std::vector<std::uint32_t>> readers(graph_.resources().size());
         for (std::size_t p = 0; p < alive_.size(); ++p) {
             if (alive_[p]) continue;
@@ -90,7 +90,7 @@ class Culling {
     std::vector<bool> alive_;
 };
 
-/// The uses of one resource by one pass are merged.
+/// The uses of one resource by one pass, merged.
 struct Need {
     std::uint32_t resource = 0;
     std::uint32_t reads = 0;  ///< bits 1 << Access
@@ -115,7 +115,7 @@ struct Scope {
     }
 };
 
-/// The knowledge of one resource after the passes planned so far.
+/// What is known of one resource after the passes planned so far.
 struct State {
     enum class Phase : std::uint8_t {
         untouched,
@@ -123,18 +123,18 @@ struct State {
         ordered  ///< written (or its layout changed) in this plan
     } phase = Phase::untouched;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    Scope last_write;           ///< accesses 0 mean a layout change, available by itself
-    std::uint32_t visible = 0;  ///< read accesses that see the last write
+    Scope last_write;           ///< no accesses: a layout change, which needs no further availability
+    std::uint32_t visible = 0;  ///< read accesses for which the last write is visible
     VkPipelineStageFlags2 readers = 0;
     VkPipelineStageFlags2 available = 0;       ///< stages that wait until the last write is available
-    bool reads_follow_write = false;           ///< waiting for `readers` waits for the last write as well
+    bool reads_follow_write = false;           ///< waiting for `readers` also waits for the last write
     std::uint32_t entry_barrier = UINT32_MAX;  ///< index into the entry barriers
-    std::uint32_t last_pass = UINT32_MAX;      ///< the last write's or, in phase entry, the last read's
+    std::uint32_t last_pass = UINT32_MAX;      ///< the pass of the last write or, in phase entry, of the last read
     Access last_access = Access::compute_read;
 };
 
-/// Derives barriers pass by pass. The waits for earlier submissions are all put before the first pass: they wait for
-/// everything, and one wait at the start stalls less than many on the way.
+/// Derives barriers pass by pass. The waits for earlier submissions all stand before the first pass: they wait for
+/// everything, and one wait at the start stalls less than many later ones.
 class BarrierPlanner {
   public:
     explicit BarrierPlanner(const Graph& graph) : graph_(graph), states_(graph.resources().size()) {}
@@ -203,7 +203,7 @@ class BarrierPlanner {
         const Resource& resource = graph_.resources()[need.resource];
         state.phase = State::Phase::entry;
         state.layout = need.layout;
-        // A submit makes the host's writes visible; nothing on the device writes a host input.
+        // A submit makes the host's writes visible, and nothing on the device writes a host input.
         if (resource.lifetime == Lifetime::host_input) return;
         Scope destination;
         destination.add_reads(need.reads);
@@ -236,7 +236,7 @@ class BarrierPlanner {
         if (need.write) destination.add(*need.write);
         if (destination.stages == 0) return;
         const Scope source = need.write || new_layout ? after_readers(state) : after_write(state);
-        // A reader at the writer's stage is waited for as well: whoever waits for us waits for it.
+        // This waits for a reader at the writer's stage too, so later waits for this use include that reader.
         if (!need.write) state.readers &= ~source.stages;
         state.available |= destination.stages;
         const Resource& resource = graph_.resources()[need.resource];
@@ -255,19 +255,19 @@ class BarrierPlanner {
 
     /// Returns the source of a barrier for a reader of the last write.
     static Scope after_write(const State& state) {
-        // It is available already when a reader at the writer's stage came between.
+        // The write is already available if a reader at the writer's stage came in between.
         const bool available = (state.last_write.stages & state.available) != 0;
         return {state.last_write.stages, available ? 0 : state.last_write.accesses & write_accesses};
     }
 
-    /// Returns the source of a barrier for the next write. Readers that saw the last write stand between it and the
-    /// next one: waiting for them is enough, and the write is available already.
+    /// Returns the source of a barrier for the next write. Readers of the last write come between the two writes:
+    /// waiting for them is enough, and the last write is already available.
     static Scope after_readers(const State& state) {
         if (state.reads_follow_write) return {state.readers, 0};
         return {state.last_write.stages | state.readers, state.last_write.accesses & write_accesses};
     }
 
-    /// Sets the state after the pass, its barriers being in place.
+    /// Updates the state after the pass and its barriers.
     void record(const Need& need, State& state, std::uint32_t pass) {
         Scope reads;
         reads.add_reads(need.reads);
@@ -288,7 +288,7 @@ class BarrierPlanner {
         state.last_access = need.write ? *need.write : first_access(need.reads);
     }
 
-    /// Brings a resource to where the next plan, or the host, expects it.
+    /// Adds the barriers after which the next plan, or the host, can use a resource.
     void leave(std::uint32_t r, std::vector<Barrier>& barriers) {
         const State& state = states_[r];
         const Resource& resource = graph_.resources()[r];
@@ -302,7 +302,7 @@ class BarrierPlanner {
         }
         if (resource.lifetime == Lifetime::persistent && resource.is_image && state.layout != VK_IMAGE_LAYOUT_GENERAL) {
             const Scope source = after_readers(state);
-            // It ends in all stages, so that the entry barrier of whatever plan follows can wait for it.
+            // Its destination is all stages, so that the entry barrier of any plan that follows can wait for it.
             barriers.push_back({r, source.stages, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, source.accesses, 0,
                                 state.layout, VK_IMAGE_LAYOUT_GENERAL,
                                 fmt::format("{}: back to its layout of rest", resource.name)});
@@ -320,7 +320,7 @@ class BarrierPlanner {
 
     const Graph& graph_;
     std::vector<State> states_;
-    std::vector<Need> needs_;  ///< the needs of the pass at hand, kept for their memory
+    std::vector<Need> needs_;  ///< of the current pass; a member to reuse its memory
     std::vector<Barrier> entry_;
 };
 

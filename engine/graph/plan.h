@@ -9,14 +9,14 @@
 
 namespace drape::graph {
 
-/// One use touches these stages and accesses, and needs an image in this layout.
+/// The stages and accesses of one use, and the image layout that it needs.
 struct AccessScope {
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 accesses;
     VkImageLayout layout;
 };
-/// Storage and copies work in GENERAL, attachments in their own layouts: the layout follows from the access alone, so a
-/// pass can know it when it records (PassContext::layout).
+/// Storage and copies use GENERAL, attachments their own layouts. The layout thus follows from the access alone, so a
+/// pass knows it when it records (PassContext::layout).
 AccessScope access_scope(Access access);
 /// Returns the physical copies of a resource: one per frame slot for host inputs and outputs.
 std::uint32_t copy_count(const Resource& resource);
@@ -31,7 +31,7 @@ struct Barrier {
 
 struct PlannedPass {
     std::uint32_t pass;             ///< index into Graph::passes()
-    std::vector<Barrier> barriers;  ///< to be executed before it
+    std::vector<Barrier> barriers;  ///< to be executed before the pass
 };
 
 struct Lifespan {
@@ -43,7 +43,7 @@ struct Plan {
     std::vector<PlannedPass> passes;      ///< in execution order = declaration order
     std::vector<Barrier> final_barriers;  ///< after the last pass: device writes to the host
     std::vector<Lifespan> lifespans;      ///< per resource of the graph
-    std::vector<Remark> skipped;          ///< the graph's own, then what culling removed and why
+    std::vector<Remark> skipped;          ///< the remarks of the graph, then the passes that culling removed, and why
     std::uint64_t byte_count = 0;         ///< bytes of all used resources, copies per frame slot counted
 };
 
@@ -56,7 +56,7 @@ struct Plan {
 /// GraphError when a wanted pass reads a transient or host_output version nobody wrote.
 Plan make_plan(const Graph& graph);
 
-/// Returns what runs, what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.
+/// Returns what runs, and what was skipped and why. `format`: "text", "json" or "dot". Text folds repeated substeps.
 std::string dump(const Graph& graph, const Plan& plan, const std::string& format);
 
 }  // namespace drape::graph

@@ -1,4 +1,4 @@
-// The push constants of a dispatch, whatever their struct.
+// The push constants of a dispatch, for any struct.
 #pragma once
 
 #include <concepts>
@@ -10,9 +10,9 @@
 
 namespace drape::graph {
 
-/// The bytes of a struct that C++ shares with GLSL and its layout, which the shader's block must have.
+/// The bytes of a struct that C++ shares with GLSL, and its layout, which the shader's block must match.
 struct PushConstants {
-    /// A pipeline without push constants takes these.
+    /// For a pipeline without push constants.
     PushConstants() = default;
     template <class T>
     requires(!std::same_as<T, PushConstants>) PushConstants(const T& value)

@@ -10,11 +10,11 @@
 namespace drape::graph {
 namespace {
 
-/// One physical resource: its declaration, and the uses of all plans together.
+/// One physical resource: its declaration, and its uses by all plans together.
 struct Wanted {
     const Resource* resource = nullptr;
     bool used = false;
-    std::set<std::uint32_t> slices;  ///< those that a pass uses alone
+    std::set<std::uint32_t> slices;  ///< slices that a pass uses on their own
     VkImageUsageFlags image_usage = 0;
     VkBufferUsageFlags buffer_usage = 0;
 };
@@ -108,14 +108,14 @@ std::uint64_t total_bytes(const WantedByName& all) {
 vulkan::ImageDescription describe_image(const Wanted& wanted) {
     const ImageDeclaration& image = wanted.resource->image;
     VkImageUsageFlags usage = wanted.image_usage;
-    // Set-up needs this, and whoever wants to look at intermediate results; multisampled images cannot be copied to a
-    // buffer, and must not lose the chance to live in tile memory.
+    // Set-up and inspection of intermediate results need this usage. Multisampled images cannot be copied to a buffer,
+    // and must be able to stay in tile memory.
     if (image.samples == VK_SAMPLE_COUNT_1_BIT || set_up_once(*wanted.resource)) {
         usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     }
     std::vector<std::string> slices(image.slices.size());
     for (const std::uint32_t slice : wanted.slices) slices[slice] = image.slices[slice];
-    // A GPU is faster through an image that shares its memory with nothing.
+    // A GPU accesses an image faster if it shares its memory with nothing.
     const bool shares = image.buffer_view || !wanted.slices.empty();
     if (!shares) slices.clear();
     return {image.name, image.format, image.width, image.height, usage, image.samples, shares, slices};

@@ -64,7 +64,7 @@ std::vector<std::uint64_t> shape_of(const std::string& text, const std::string& 
     return shape;
 }
 
-/// Where an array's bytes come from.
+/// The source of an array's bytes.
 struct Source {
     std::string where;   ///< for errors
     std::uint64_t size;  ///< bytes
@@ -72,7 +72,7 @@ struct Source {
     std::function<void(std::uint64_t count)> skip;
 };
 
-/// Returns what stands between the two, the first of them behind `key`; nothing where a header has none.
+/// Returns the text between the two, the first of which follows `key`; nothing if a header has none.
 std::optional<std::string> between(const std::string& header, const std::string& key, char open, char close) {
     const std::size_t at = header.find(key);
     if (at == header.npos) return {};
@@ -168,7 +168,8 @@ Array load_part(zip_t* archive, zip_uint64_t index, const std::filesystem::path&
         }
         return done;
     };
-    // A part as it is can be skipped; of one that is packed every byte must be unpacked, and few bytes may be many.
+    // An uncompressed part can be skipped; of a compressed one every byte must be decompressed, and few bytes may
+    // become many.
     const auto skip = [&](std::uint64_t count) {
         if (stat.comp_method == ZIP_CM_STORE) {
             if (zip_fseek(file.get(), static_cast<zip_int64_t>(count), SEEK_CUR) != 0)

@@ -12,12 +12,12 @@
 namespace drape::input {
 
 struct Array {
-    std::string name;  ///< in its archive; empty for an NPY file's
+    std::string name;  ///< its name in an archive; empty for an NPY file
     std::string type;  ///< as NumPy spells it: "<f4"
     std::vector<std::uint64_t> shape;
     std::vector<std::byte> bytes;  ///< C order
 
-    /// Returns whether its values are numbers that `value` knows.
+    /// Returns whether its values are numbers that `value` can read.
     bool has_numbers() const;
     std::size_t count() const;
     double value(std::size_t index) const;
@@ -32,7 +32,8 @@ struct Array {
 std::vector<Array> load_arrays(const std::filesystem::path& path,
                                const std::function<bool(std::string_view)>& is_wanted = {});
 
-/// Says of an array of numbers whose values are not read yet how many of the last ones are wanted; may throw.
+/// Receives an array of numbers whose values are not read yet, and returns how many of the last ones are wanted; may
+/// throw.
 using WantedValues = std::function<std::uint64_t(const Array&)>;
 /// Returns the array of an NPY file, or the one of this name in an NPZ archive, with its last values alone. Throws
 /// OutputError naming the file, what `wanted` throws, and for values that are not numbers.

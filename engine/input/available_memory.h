@@ -1,4 +1,4 @@
-// Memory for what a file says it holds.
+// Checks that there is memory for what a file claims to hold.
 #pragma once
 
 #include <cstdint>

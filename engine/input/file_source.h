@@ -1,4 +1,5 @@
-// Bytes of a file that somebody names: they are read as they are needed, and what may block or never end is refused.
+// The bytes of a file that a user names. They are read when they are needed; files that may block or never end are
+// refused.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@ OutputError unreadable(const std::string& where, const std::string& why);
 
 class FileSource {
   public:
-    /// Throws OutputError where no file is there, or something that is no regular file.
+    /// Throws OutputError if no file exists there, or if it is not a regular file.
     explicit FileSource(const std::filesystem::path& path);
     ~FileSource();
     FileSource(const FileSource&) = delete;

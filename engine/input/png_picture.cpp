@@ -24,7 +24,7 @@ std::string read_text_chunk(spng_ctx* context) {
     return {};
 }
 
-// Before memory is taken for what the header says.
+// This check precedes the allocation of memory for what the header claims.
 void check_size(const spng_ihdr& header, std::size_t file_bytes) {
     constexpr std::uint64_t channels[] = {1, 0, 3, 1, 2, 0, 4};  // by colour type
     constexpr std::uint64_t most_shrunk = 1032;                  // of deflate: 258 bytes in two bits
@@ -35,7 +35,7 @@ void check_size(const spng_ihdr& header, std::size_t file_bytes) {
     expect_memory(what, std::uint64_t{header.width} * header.height * 3);
 }
 
-/// Returns what decodes the picture, whose header is read.
+/// Returns the decoder of the picture, whose header has been read.
 Context decoder(std::span<const std::uint8_t> png, spng_ihdr& header) {
     Context context = new_context(0);
     check(spng_set_image_limits(context.get(), side_limit, side_limit), "set limits");

@@ -1,4 +1,4 @@
-// The head of a point cache (PC2).
+// The header of a point cache (PC2).
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ namespace drape::input {
 
 namespace {
 
-/// Beyond it squares overflow in single precision.
+/// Larger coordinates have squares that overflow in single precision.
 constexpr double most_coordinate = 1e15;
 
 OutputError of_another_mesh(const std::string& name, std::size_t points, const std::string& got) {

@@ -1,4 +1,4 @@
-// Reads how the vertices of a mesh move.
+// Reads the poses of a mesh whose vertices move.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct PointPoses {
     std::vector<float> xyz;  ///< in the file's unit; pose by pose, point by point
 };
 
-/// At most so many bytes of them are read.
+/// The largest number of bytes of poses that are read.
 inline constexpr std::uint64_t most_pose_bytes = std::uint64_t{512} << 20;
 
 /// Returns the poses of so many points that a file or several have, of the kind that the name ends in:

@@ -31,7 +31,7 @@ struct GridSize {
     }
 };
 
-/// The numbers of points that a mesh or a point cache may have.
+/// The possible numbers of points in a mesh or a point cache.
 struct PointCounts {
     PointCounts(const GridSize& grid, const std::vector<bool>& is_used)
         : all(grid.count()),
@@ -44,7 +44,7 @@ struct PointCounts {
     }
 };
 
-/// Returns all particles of the grid, given only those that are used.
+/// Returns all particles of the grid, from those that are used.
 Positions with_unused(const Positions& used, const GridSize& grid, const std::vector<bool>& is_used) {
     Positions all(grid.count());
     std::vector<bool> is_placed(grid.count());

@@ -1,4 +1,4 @@
-// Reads where the particles of a grid are.
+// Reads the places of a grid's particles.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace drape::input {
 /// Throws OutputError naming the file: where it is not that, is of another shape (both are said), or ends too early.
 std::vector<std::array<double, 3>> read_positions(const std::filesystem::path& path, std::uint32_t columns,
                                                   std::uint32_t rows, const std::vector<bool>& is_used = {});
-/// Returns their velocities (m/s) likewise, from .npy, or from .npz as its array `velocities`.
+/// Returns the particles' velocities (m/s) in the same way, from .npy, or from .npz as its array `velocities`.
 std::vector<std::array<double, 3>> read_velocities(const std::filesystem::path& path, std::uint32_t columns,
                                                    std::uint32_t rows);
 

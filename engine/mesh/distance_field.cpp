@@ -77,7 +77,7 @@ std::shared_ptr<const DistanceField> distance_field(const std::shared_ptr<const 
     std::weak_ptr<const DistanceField>& known = kept[{shape.get(), spacing, margin}];
     std::shared_ptr<const DistanceField> field = known.lock();
     if (!field) {
-        // The field keeps its shape alive, so that no other can come to be at the same address.
+        // The field keeps its shape alive, so that no other shape can get the same address.
         struct Kept {
             std::shared_ptr<const MeshShape> shape;
             DistanceField field;

@@ -1,4 +1,4 @@
-// Distances to a body at the points of a lattice, which devices interpolate.
+// Distances to a body at the points of a lattice, between which devices interpolate.
 #pragma once
 
 #include <array>
@@ -18,26 +18,26 @@ struct DistanceField {
     std::vector<float> samples;           ///< m, negative inside; x varies fastest, then y
 };
 
-/// A field has at most so many points, unless its spacing is asked for: 32 MiB on a device.
+/// The largest number of points in a field, unless its spacing is asked for: 32 MiB on a device.
 inline constexpr std::size_t usual_field_points = std::size_t{1} << 21;
-/// All fields of a scene have at most so many: 128 MiB on a device, what every one takes as a buffer.
+/// The largest number of points in all fields of a scene: 128 MiB on a device, which every device allows for a buffer.
 inline constexpr std::size_t most_field_points = std::size_t{1} << 23;
 
-/// A field that is made anew for every frame, of a mesh that deforms, has at most so many, unless its spacing is asked
-/// for.
+/// The largest number of points in a field that is computed again for every frame, of a mesh that deforms, unless its
+/// spacing is asked for.
 inline constexpr std::size_t usual_moving_points = std::size_t{1} << 18;
 
 /// Returns a field without its samples.
 DistanceField empty_field(const MeshShape& shape, double spacing, double margin);
-/// Returns how far from the body distances are exact, m: contact does not look farther than the margin beyond a
-/// surface; deeper inside, distances only have to lead out.
+/// Returns the distance from the body within which the field is exact, m: contact needs no distance farther than the
+/// margin beyond a surface; deeper inside, distances only have to lead out.
 double exact_within(double spacing, double margin);
-/// Returns how many points a field with this spacing has that goes `margin` (m) beyond the body.
+/// Returns the number of points of a field with this spacing that extends `margin` (m) beyond the body.
 std::size_t field_points(const MeshShape& shape, double spacing, double margin);
 /// Returns the least spacing, not below `wanted`, with which a field has at most `most` points.
 double field_spacing(const MeshShape& shape, double wanted, double margin, std::size_t most);
 
-/// Returns the field, by all cores. The same one, asked for again while it is in use, is not made again.
+/// Returns the field, computed by all cores. A field that is still in use is not computed again.
 std::shared_ptr<const DistanceField> distance_field(const std::shared_ptr<const MeshShape>& shape, double spacing,
                                                     double margin);
 

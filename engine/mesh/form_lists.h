@@ -18,7 +18,8 @@ struct FormLists {
     void append(const FormLists& other);
 };
 
-/// Returns those of a form. `field`: that which is to be made, without its samples, exact so near to the surface, m.
+/// Returns the lists of a form. `field`: the field to be computed, without its samples; its distances are exact within
+/// `exact` of the surface, m.
 FormLists form_lists(const MeshShape& form, const DistanceField& field, double exact);
 
 }  // namespace drape

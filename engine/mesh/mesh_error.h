@@ -1,4 +1,4 @@
-// Errors of meshes are told without a place; whoever asked for the mesh knows it.
+// Errors of meshes have no place in their text; the caller that asked for the mesh knows it.
 #pragma once
 
 #include "drape/error.h"

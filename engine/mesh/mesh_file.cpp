@@ -21,8 +21,8 @@
 
 namespace Assimp {
 
-/// The library as Debian builds it calls this where something that it took for granted does not hold, and would stop
-/// the program. Thrown, it is an error of the file like others.
+/// Debian's build of the library calls this function when an assumption fails, and would then stop the program. Thrown
+/// as an exception, it is an error of the file like others.
 void aiAssertViolation(const char* failed, const char*, int) {
     throw std::runtime_error(fmt::format("the file breaks a rule ({})", failed));
 }
@@ -40,7 +40,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-/// Refuses what the library that reads files should not see.
+/// Refuses files that the library should not see.
 void look_at(const fs::path& path) {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);

@@ -13,7 +13,7 @@ namespace drape {
 
 inline constexpr std::size_t mesh_file_byte_limit = std::size_t{256} << 20;
 inline constexpr std::size_t mesh_triangle_limit = 4'000'000;
-/// Names of files end so.
+/// The endings of files that can be read.
 inline constexpr std::string_view mesh_file_ends[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
 
 /// Returns the mesh of a file, its coordinates times `scale` in metres; faces with more corners are cut into fans of

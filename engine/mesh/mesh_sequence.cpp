@@ -13,7 +13,7 @@ namespace drape {
 
 namespace {
 
-/// A frame's begin and end, for the motion and for the picture.
+/// The start and end of a frame, for the motion and for the picture.
 constexpr std::size_t kept_forms = 4;
 constexpr std::size_t no_vertex = std::numeric_limits<std::size_t>::max();
 

@@ -23,13 +23,13 @@ class MeshSequence {
     MeshSequence(const MeshSequence&) = delete;
 
     std::size_t count() const { return count_; }
-    /// Returns the form in the middle of a box about all poses, which is its bounding box.
+    /// Returns the form moved to the middle of a box around all poses, which becomes its bounding box.
     const std::shared_ptr<const MeshShape>& form() const { return form_; }
     /// Returns the form that it has at a number of poses from the first one on, with the middle and the box of `form`.
     /// Between two poses the vertices move along straight lines; behind the last one, towards the first. The number is
     /// at least 0 and below `count`. The last ones that were asked for are kept.
     std::shared_ptr<const MeshShape> at(double pose) const;
-    /// Returns what no vertex moves farther than between two such numbers, by a straight line, m.
+    /// Returns a bound on how far a vertex moves in a straight line between two such numbers of poses, m.
     double farthest(double from, double to) const;
     /// Returns the most that the middle of two of a vertex's places is off a third one, m.
     double farthest_off_middle(double before, double between, double after) const;

@@ -68,11 +68,11 @@ Closure closure_of(const std::vector<Triangle>& triangles) {
     return closure;
 }
 
-/// Turns triangles so that neighbours turn one way, as far as that goes.
+/// Turns triangles so that neighbours have the same orientation, as far as possible.
 void turn_one_way(std::vector<Triangle>& triangles) {
     struct Neighbour {
         std::uint32_t triangle;
-        bool alike;  ///< the two go along their edge in opposite ways, as they should
+        bool alike;  ///< they traverse their common edge in opposite directions, as they should
     };
     std::vector<std::vector<Neighbour>> beside(triangles.size());
     Edges(triangles).each([&](std::span<const Edges::Use> uses) {

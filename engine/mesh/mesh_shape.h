@@ -10,7 +10,7 @@
 
 namespace drape {
 
-/// A closed surface bounds a solid body. An open one is a shell: what is nearer to it than half its thickness.
+/// A closed surface bounds a solid body. An open surface is a shell: everything within half its thickness.
 class MeshShape {
   public:
     /// Corners in the same place become one, triangles without an area go. `vertices` are in metres. A closed surface
@@ -37,15 +37,15 @@ class MeshShape {
     /// Returns how far the surface is from the innermost of some 10,000 points, m: half of what the body is thick.
     double inner_radius() const { return inner_radius_; }
 
-    /// Returns the distance to the surface, negative inside, m. It follows from the triangles themselves.
+    /// Returns the distance to the surface, negative inside, m, computed from the triangles themselves.
     double distance(const Vec3& local) const;
-    /// Returns it for points of a line along x, from `first` on by `step`, m. Beyond `exact_within` it may be up to 2 %
-    /// too far.
+    /// Returns the distance at points on a line along x, from `first` on by `step`, m. Beyond `exact_within` it may be
+    /// up to 2 % too large.
     void distances(const Vec3& first, double step, double exact_within, std::vector<double>& row) const;
     /// Returns which of so many points of a line along x are inside a closed surface; none of a shell.
     std::vector<bool> inside(const Vec3& first, double step, std::size_t count) const;
     const TriangleTree& tree() const { return *tree_; }
-    /// Returns what a closed surface bounds, m^3; negative where it is inside out.
+    /// Returns the volume within a closed surface, m^3; negative if the surface is inside out.
     double volume() const;
 
   private:

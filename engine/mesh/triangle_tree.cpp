@@ -59,7 +59,7 @@ int side_of(const Vec3& a, const Vec3& b, double y, double z) {
     return swapped ? -sign : sign;
 }
 
-/// Returns a corner of a box in single precision, outside of it.
+/// Returns a corner of a box in single precision, rounded outwards.
 glsl::vec4 rounded(const Vec3& corner, int side) {
     std::array<float, 3> x{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -129,7 +129,7 @@ double TriangleTree::triangle_distance(std::uint32_t triangle, const Vec3& point
     return dot(off, off);
 }
 
-/// Appends a box and those below it, and returns the number of the one behind them.
+/// Appends a box and those below it, and returns the number of the next box.
 std::uint32_t TriangleTree::append_to(std::vector<glsl::FormNode>& nodes, std::uint32_t index) const {
     const Node& node = nodes_[index];
     const std::size_t place = nodes.size();

@@ -1,4 +1,5 @@
-// A tree of boxes over triangles: the nearest triangle of a point, and those that a line along x passes.
+// A tree of boxes over triangles, to find the triangle nearest to a point, and those that a line along x passes
+// through.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ class TriangleTree {
     /// % too far: where much is as near, that spares most of the work.
     double distance(const Vec3& point, double exact_within, std::uint32_t& nearest) const;
 
-    /// Appends the tree as passes walk it, which has as many boxes for as many triangles.
+    /// Appends the tree in the form that passes use; it has the same number of boxes for equally many triangles.
     void append_to(std::vector<glsl::FormNode>& nodes) const;
 
     /// Appends where the line through (y, z) along x passes, in no order. Of two triangles at an edge that it meets it

@@ -81,7 +81,7 @@ void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes
     }
 }
 
-// After a rewrite the hash of what was appended no longer fits.
+// After a rewrite, the hash of the appended bytes is no longer valid.
 std::string AtomicFile::hash_written_bytes() const {
     if (!rewritten_) return hex(XXH3_128bits_digest(hash_state_.get()));
     const HashState state = new_hash_state();
@@ -136,7 +136,7 @@ int write_all(int descriptor, std::string_view text) {
     return 0;
 }
 
-/// A pipe or a device is written to; to put a file into its place would take it from all others.
+/// A pipe or a device is written to directly: replacing it by a file would take it away from all others.
 void write_into(const std::filesystem::path& path, std::string_view text) {
     const FileDescriptor descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC));
     const int error = descriptor ? write_all(descriptor.get(), text) : errno;
@@ -150,7 +150,7 @@ void write_file(const std::filesystem::path& asked, std::string_view text) {
     if (const auto there = std::filesystem::status(asked, unknown);
         std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
         return write_into(asked, text);
-    // A link stays one, to the new file, which need not have been there.
+    // A link remains a link, to the new file, which need not have existed.
     std::filesystem::path path = asked;
     for (int links = 0; links < 40 && std::filesystem::is_symlink(path, unknown); ++links)
         path = path.parent_path() / std::filesystem::read_symlink(path, unknown);

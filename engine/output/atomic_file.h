@@ -38,10 +38,10 @@ class AtomicFile {
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     void append(std::span<const std::byte> bytes);
-    // Overwrites bytes appended before (a header known only at the end).
+    // Overwrites bytes that were appended earlier (for a header that is known only at the end).
     void rewrite(std::uint64_t offset, std::span<const std::byte> bytes);
     std::uint64_t size() const { return size_; }
-    // The file can be read back before it has a name of its own.
+    // Returns the file for reading back before it has its own name.
     int descriptor() const { return descriptor_.get(); }
 
     FileRecord commit();
@@ -63,11 +63,11 @@ class AtomicFile {
 
 FileRecord write_file(OutputFolder& folder, const std::string& name, std::span<const std::byte> bytes);
 
-// Returns the bytes of a whole file anywhere. Throws OutputError.
+// Returns the bytes of a whole file in any folder. Throws OutputError.
 std::string read_file(const std::filesystem::path& path);
 
-// Writes a whole file in the same way anywhere in a folder that exists, for results that are not a run's. A link stays
-// one to the new file; a pipe or a device is written to.
+// Writes a whole file in the same way, in any existing folder, for results that belong to no run. A symbolic link
+// remains a link, to the new file; a pipe or a device is written to directly.
 void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace drape

@@ -9,10 +9,10 @@
 
 namespace drape {
 
-// A failed run leaves this file to be replayed.
+// The name of the file that a failed run leaves for replay.
 inline constexpr std::string_view reproducer_file_name = "failure.reproducer";
 
-// This file says what the writers of an unfinished run were told (journal.h).
+// The name of the file that stores what the writers of an unfinished run received (journal.h).
 inline constexpr std::string_view journal_file_name = "journal.drape";
 
 // Returns "checkpoint_0000000120.drape" for the state before frame 120; sorted by name they are sorted by frame.

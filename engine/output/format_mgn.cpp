@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::int32_t normal_node = 0, obstacle_node = 1, handle_node = 3;  // NodeType of MeshGraphNets' common.py
 
-/// Writes all cloths as one mesh, cloth after cloth, then the colliders. The frames wait in a file beside the archive.
+/// Writes all cloths as one mesh, cloth after cloth, then the colliders. Frames are collected in a file beside the
+/// archive.
 class Trajectory : public FrameWriter {
   public:
     Trajectory(OutputFolder& folder, const WrittenRun& run)

@@ -12,7 +12,7 @@ namespace drape {
 
 namespace {
 
-/// Values of every particle of every frame go into a file that waits, then once into the archive.
+/// The values of all particles in all frames, which are collected in a file and then copied into the archive.
 struct ParticleArray {
     std::string_view name;
     NpyValues values = {};
@@ -39,7 +39,8 @@ std::string list_array(const char* type, const std::vector<T>& values) {
     return npy_array(type, fmt::format("{},", values.size()), std::as_bytes(std::span(values)));
 }
 
-/// The archive of one cloth. Its frames wait in files beside it, because a ZIP's parts cannot grow side by side.
+/// The archive of one cloth. Its frames are collected in files beside it, because the parts of a ZIP cannot grow in
+/// parallel.
 class NpzFile {
   public:
     NpzFile(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)
@@ -51,7 +52,7 @@ class NpzFile {
         }
     }
 
-    /// Frames wait in a file that never appears under this name.
+    /// Frames are collected in a file that never appears under this name.
     static std::string waiting_stem(const ParticleArray& array) { return fmt::format("frames_of_{}", array.name); }
 
     void add(const WrittenFrame& frame, std::size_t cloth) {

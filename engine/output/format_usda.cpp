@@ -54,7 +54,7 @@ std::string points_text(std::span<const float> values, std::size_t stride) {
     return text + "]";
 }
 
-/// Every frame's text is as wide, so that it can be corrected in place.
+/// Every frame's text has the same width, so that it can be corrected in place.
 std::string end_text(std::uint32_t frame) { return fmt::format("{:<10}", frame); }
 
 /// Returns what a file says of its time behind the last frame, and of its world.
@@ -120,7 +120,7 @@ class UsdaCollider {
         return points;
     }
 
-    /// Points are rows before the matrix.
+    /// Points are row vectors, multiplied from the left to the matrix.
     std::string matrix_at(std::uint32_t frame) const {
         const Placement3x4 rows = collider_.placement(frame / fps_);
         std::string text;

@@ -14,20 +14,22 @@
 
 namespace drape {
 
-// Keeps numbers about the frames of a run, however many: what comes to more than a megabyte waits in a file of the
-// run's folder that has no name, so that it ends with the program. Every member but the first throws OutputError.
+// Keeps numbers about the frames of a run, however many: data beyond a megabyte is stored in an unnamed file in the
+// run's folder, which disappears when the program ends. Every member but the first throws OutputError.
 class FrameTable {
   public:
     // `folder` must outlive this.
     explicit FrameTable(OutputFolder& folder) : folder_(folder) {}
 
-    // Frames come in any order; if one comes twice, the later values count. A value that is NaN is none.
+    // Adds a frame's values, in any order of frames; if a frame comes twice, the later values count. NaN means no
+    // value.
     void add(std::uint32_t frame, const FrameValues& values);
 
     // Calls take(frame, values) for every frame, in order of their numbers.
     void for_each(const std::function<void(std::uint32_t, const FrameValues&)>& take) const;
 
-    // Return, in the order in which frames were added, their numbers and the values of a name, NaN where there is none.
+    // Return, in the order in which frames were added, their numbers, and the values with a name, NaN where there is
+    // none.
     std::vector<std::uint32_t> frames() const;
     std::vector<double> column(const std::string& name) const;
     // Returns the names of all frames' values, sorted.
@@ -46,7 +48,7 @@ class FrameTable {
     OutputFolder& folder_;
     std::map<std::string, std::size_t> columns_;  // column of each name, in the order in which names came
     FileDescriptor file_;
-    std::uint64_t length_ = 0;  // bytes in the file; what waits comes behind them
+    std::uint64_t length_ = 0;  // bytes in the file; waiting values follow them
     std::vector<std::byte> waiting_;
 };
 

@@ -1,5 +1,5 @@
-// A run writes its frames in formats. Each has one file (format_*.cpp), which owns its file names, and a row of one
-// table (output_formats.cpp).
+// The formats in which a run writes its frames. Each format has one file (format_*.cpp), which defines its file names,
+// and a row in one table (output_formats.cpp).
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ struct WrittenCloth {
     std::string name;  ///< part of its files' names; empty when it is the only one
     std::uint32_t columns = 0, rows = 0;
     std::vector<std::uint32_t> faces;  ///< three particles per triangle, uncut
-    std::string label = {};            ///< the scene's name for it: WrittenFrame::values has "<label>/..."
+    std::string label = {};            ///< its name in the scene: WrittenFrame::values has "<label>/..."
     std::array<double, 2> size{1, 1};  ///< metres along columns, rows
     std::vector<bool> held{};          ///< by particle: pinned at the start; empty: none
-    Up up = Up::y;                     ///< the world's, whose coordinates the files have
+    Up up = Up::y;                     ///< of the world in whose coordinates the files are
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Returns where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
@@ -38,19 +38,19 @@ struct WrittenRun {
     std::uint32_t start = 0, end = 0, step = 1;  ///< frames, `end` inclusive
     double fps = 60;
     bool cuts = false;      ///< faces may change
-    bool deflates = false;  ///< archives are packed
-    Up up = Up::y;          ///< the world's, whose coordinates the files have
+    bool deflates = false;  ///< archives are compressed
+    Up up = Up::y;          ///< of the world in whose coordinates the files are
     std::uint32_t width = 0, height = 0;
     std::string key;                ///< the run's key (kept_frames.h)
-    std::string scene, parameters;  ///< JSON: the scene with its defaults written out; what the run chose
-    std::uint32_t seed = 0;         ///< decides the gusts
+    std::string scene, parameters;  ///< JSON: the scene with its defaults written out; the run's choices
+    std::uint32_t seed = 0;         ///< determines the gusts
     std::vector<WrittenCollider> colliders = {};
-    std::vector<WrittenCollider> obstacles = {};  ///< the same as graph networks see them, which know nodes alone
+    std::vector<WrittenCollider> obstacles = {};  ///< the same colliders for graph networks, which know only nodes
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };
 
-/// A frame is valid during FrameWriter::add. What the format does not need may be empty.
+/// The data of a frame, valid during FrameWriter::add. Data that the format does not need may be empty.
 struct WrittenFrame {
     std::uint32_t number = 0;
     std::span<const std::uint8_t> rgba;                   ///< rows from the top, sRGB
@@ -60,8 +60,8 @@ struct WrittenFrame {
     FrameValues values;
 };
 
-/// Writes the frames of a run into its folder; for one thread. Every member throws OutputError; files appear whole or
-/// not at all, and what is not finished leaves nothing but the files of single frames.
+/// Writes the frames of a run into its folder; for use by one thread. Every member throws OutputError. Files appear
+/// complete or not at all; an unfinished writer leaves only the files of single frames.
 class FrameWriter {
   public:
     FrameWriter() = default;
@@ -71,7 +71,7 @@ class FrameWriter {
 
     /// Adds frames in their order.
     virtual void add(const WrittenFrame& frame) = 0;
-    /// The cloth has these triangles, which no cut has split, from `frame` on, which was not added yet.
+    /// From `frame` on, which has not been added yet, the cloth has these triangles, which no cut has split.
     virtual void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
         (void)frame, (void)cloth, (void)faces;
     }
@@ -81,7 +81,7 @@ class FrameWriter {
     virtual std::vector<FileRecord> finish() = 0;
 };
 
-/// Takes a stream's bytes in order; throws what ends the run.
+/// Takes a stream's bytes in order; may throw, which ends the run.
 using ByteSink = std::function<void(std::span<const std::byte>)>;
 
 /// The size of a run's frames, all cloths together.
@@ -90,8 +90,8 @@ struct FrameSize {
     std::uint64_t triangles = 0;  ///< 0: holes or cuts leave fewer
     std::uint64_t pixels = 0;
     std::uint64_t moving_vertices = 0, moving_triangles = 0;  ///< of colliders that move
-    std::uint64_t obstacle_nodes = 0;                         ///< as graph networks see colliders
-    bool packed = false;                                      ///< archives take less than what waits for them
+    std::uint64_t obstacle_nodes = 0;                         ///< nodes of colliders for graph networks
+    bool packed = false;  ///< archives take less space than the data that waits for them
 };
 
 /// A row of the table. The command line's help, the check of its options, docs/export_formats.md (usage_test) and the
@@ -99,20 +99,20 @@ struct FrameSize {
 struct OutputFormat {
     std::string_view name;     ///< value of --export
     std::string_view files;    ///< "positions.npy": with one cloth; FRAME stands for at least four digits
-    std::string_view holds;    ///< says what is in them
-    bool draws = false;        ///< needs WrittenFrame::rgba, else positions
+    std::string_view holds;    ///< describes the contents
+    bool draws = false;        ///< needs WrittenFrame::rgba; otherwise it needs positions
     bool details = false;      ///< needs velocities and contacts
-    bool resumes = false;      ///< its files name their run (kept_frames.h); others' are written anew
+    bool resumes = false;      ///< its files name their run (kept_frames.h); files of other formats are written again
     bool is_archive = false;   ///< its file is a ZIP archive, which may be packed
-    bool follows_cuts = true;  ///< its faces may change; false: such a scene is refused
-    bool frame_files;          ///< a file per frame, each a result; else files that appear when the run is complete
-    /// Returns the bytes that every frame takes at least; null: not known before.
+    bool follows_cuts = true;  ///< its faces may change; false: a scene with cuts is refused
+    bool frame_files;          ///< one complete file per frame; otherwise files appear when the run is complete
+    /// Returns the least number of bytes for each frame; null: it is not known in advance.
     std::uint64_t (*frame_bytes)(const FrameSize& frame) = nullptr;
     /// Returns whether the format may give a file this name.
     bool (*owns)(std::string_view file_name);
     /// Opens a writer, which the folder must outlive.
     std::unique_ptr<FrameWriter> (*open)(OutputFolder& folder, const WrittenRun& run);
-    /// Opens a writer without a folder, to a stream (`-o -`); null: it cannot.
+    /// Opens a writer to a stream (`-o -`), without a folder; null: the format cannot be a stream.
     std::unique_ptr<FrameWriter> (*stream)(const ByteSink& sink, const WrittenRun& run) = nullptr;
 };
 
@@ -123,11 +123,11 @@ std::unique_ptr<FrameWriter> open_writer(OutputFolder& folder, const WrittenRun&
 
 std::span<const OutputFormat* const> output_formats();
 const OutputFormat* find_output_format(std::string_view name);
-/// Returns whether --export takes it: all but the pictures themselves; `drawn`: also those made of pictures.
+/// Returns whether --export takes the format: every format but pictures; with `drawn`, also formats made of pictures.
 bool exported(const OutputFormat& format, bool drawn);
-/// Returns "npy, npz, ...": those that --export takes.
+/// Returns "npy, npz, ...": the formats that --export takes.
 std::string export_format_names(bool drawn);
-/// Returns "y4m, rgb": those that can be a stream.
+/// Returns "y4m, rgb": the formats that can be a stream.
 std::string stream_format_names();
 
 /// Returns the digits of the frame numbers in file names: enough for the last frame, at least four.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view magic = "DRAPEJNL";
 constexpr std::uint32_t version = 3;
-// So many bytes wait in memory while there is no file, and once there is one.
+// The largest number of bytes that wait in memory while there is no file, and once there is one.
 constexpr std::size_t most_before_file = std::size_t{8} << 20, most_behind_file = std::size_t{1} << 20;
 
 template <class Archive, class Record>

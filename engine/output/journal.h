@@ -14,7 +14,7 @@
 
 namespace drape {
 
-// A record is a frame that was handed to the writers, or a cut, in the order in which they were told of them.
+// A record is a frame that was passed to the writers, or a cut, in the order in which they received them.
 struct JournalRecord {
     enum class Kind : std::uint32_t { frame, cut };
     Kind kind = Kind::frame;
@@ -27,26 +27,27 @@ struct JournalRecord {
     std::vector<std::uint32_t> faces{};
 };
 
-// Convert a record's content (engine/docs/checkpoint.md). decode_record throws Error when the bytes are none.
+// Convert a record to and from bytes (engine/docs/checkpoint.md). decode_record throws Error when the bytes are no
+// record.
 std::vector<std::byte> encode_record(const JournalRecord& record);
 JournalRecord decode_record(std::span<const std::byte> bytes);
 
-// Keeps what the writers of a run were told, so that a run that goes on from a checkpoint can tell its own the same
-// (its arrays appear only when complete). Short runs never write it: records wait in memory until there is a
-// checkpoint, or too many of them; from then on few wait, so that a run's memory does not depend on how many frames lie
-// between checkpoints. Every member throws OutputError.
+// Keeps what the writers of a run received, so that a run that goes on from a checkpoint can pass the same to its own
+// writers (whose arrays appear only when complete). Short runs never write the file: records wait in memory until there
+// is a checkpoint or they become too many. From then on few wait, so that a run's memory does not depend on the number
+// of frames between checkpoints. Every member throws OutputError.
 class Journal {
   public:
     Journal(OutputFolder& folder, std::string run_key) : folder_(folder), run_key_(std::move(run_key)) {}
 
     void add(const JournalRecord& record);
-    // Puts everything added on the disk, and returns the file's length.
+    // Writes everything that was added to the disk, and returns the file's length.
     std::uint64_t sync();
 
     // Reads the records of the first `length` bytes, in order. Throws OutputError naming the file when it is not this
     // run's, or damaged.
     void read(std::uint64_t length, const std::function<void(JournalRecord&&)>& take) const;
-    // Goes on behind the first `length` bytes of the file, and drops what follows them.
+    // Goes on after the first `length` bytes of the file, and removes what follows them.
     void go_on_behind(std::uint64_t length);
 
   private:

@@ -1,4 +1,4 @@
-// JSON that is read back: anyone may have written it.
+// Reads JSON files, which anybody may have written.
 #pragma once
 
 #include <json/value.h>
@@ -11,20 +11,20 @@
 
 namespace drape {
 
-// Nothing when the text is no JSON, or nested too deeply.
+// Returns nothing when the text is no JSON, or nested too deeply.
 std::optional<Json::Value> parse_json(std::string_view text);
 
-// The kind that a value must have where there is one.
+// The type that a value must have if it exists.
 struct JsonRule {
     enum class Kind { object, list, text, number, whole_number, boolean };
-    std::string_view pointer;  // of it; `*`: every element of a list, or member of an object
+    std::string_view pointer;  // of the value; `*`: every element of a list, or member of an object
     Kind kind;
 };
 
 // Throws OutputError naming the file and the place of the first value that breaks a rule.
 void check_json(const Json::Value& json, std::span<const JsonRule> rules, const std::filesystem::path& file);
 
-// A whole file. Throws OutputError naming it, also when it is no JSON object or breaks a rule.
+// Returns a whole file. Throws OutputError, which names it, also when it is no JSON object or breaks a rule.
 Json::Value read_json(const std::filesystem::path& file, std::span<const JsonRule> rules);
 
 }  // namespace drape

@@ -11,7 +11,7 @@ namespace drape {
 /// Returns an object of these members.
 Json::Value json_object(std::initializer_list<std::pair<const char*, Json::Value>> members);
 
-/// Returns an array of what `make` makes of each item.
+/// Returns an array of the results of `make` for each item.
 template <class Items, class Make>
 Json::Value json_array(const Items& items, const Make& make) {
     Json::Value array(Json::arrayValue);
@@ -25,10 +25,10 @@ Json::Value json_array(const Items& items, const Make& make) {
 // is not finite.
 std::string json_text(const Json::Value& value);
 
-// Returns it for a value inside another one whose lines begin with so many spaces, without the newline.
+// Returns the text for a value inside another one, whose lines begin with so many spaces, without the newline.
 std::string json_text(const Json::Value& value, std::size_t indentation);
 
-// Returns it on one line, without the newline.
+// Returns the text on one line, without the newline.
 std::string json_line(const Json::Value& value);
 
 }  // namespace drape

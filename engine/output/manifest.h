@@ -21,8 +21,8 @@
 namespace drape {
 
 // Says what a run was and what it made. It is written last: a folder with a manifest is finished. Two runs of the same
-// program on the same scene and device give the same JSON but for the key "run" (when, by which command line, how
-// fast), which a comparison drops.
+// program on the same scene and device give the same JSON except for the key "run" (time, command line, speed), which
+// comparisons ignore.
 struct Manifest {
     struct Scene {
         std::string path;
@@ -75,25 +75,25 @@ struct Manifest {
         std::string reason;
         std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
-    struct SplitTriangles {  // of a cloth, by cutters: contact and wind leave them out
+    struct SplitTriangles {  // triangles of a cloth, split by cutters, that contact and wind leave out
         std::string cloth;
-        std::int64_t first_frame = 0;  // in which some are split
+        std::int64_t first_frame = 0;  // the first frame in which some are split
         std::uint64_t count = 0;       // in the last frame
     };
     struct SelfCollision {
         std::vector<std::string> cloths;              // names of cloths that meet themselves
         bool between_cloths = false;                  // all cloths meet each other
         std::optional<std::uint32_t> first_unproved;  // frame; nothing: no crossing in any substep
-        std::vector<SplitTriangles> not_covered;      // nothing is said of these; the earliest first
+        std::vector<SplitTriangles> not_covered;      // triangles without proof; the earliest first
         std::uint32_t most_pairs = 0;                 // pairs that were near each other in a substep
         std::uint64_t truncated = 0;                  // motions cut short
         double longest_lag = 0;                       // m, the farthest that one was held back in a substep
-        double lag_limit = 0;                         // m, beyond which that is too far
-        std::uint32_t lagging_frames = 0;             // in which it was
+        double lag_limit = 0;                         // m, the largest acceptable lag
+        std::uint32_t lagging_frames = 0;             // number of frames with a longer lag
         std::vector<std::pair<std::string, std::string>> crossed;  // cloths that started through each other
         std::optional<std::uint32_t> apart_since;                  // frame from which on none of them crosses another
     };
-    struct Cut {  // found at the end of the frame, acts from the next one on
+    struct Cut {  // found at the end of the frame; takes effect in the next one
         std::int64_t frame = 0;
         std::string cloth;
         std::uint32_t spring_count = 0;    // cut
@@ -117,7 +117,7 @@ struct Manifest {
     // "diverged", "tolerance missed": the run ended before its end, with what came before, or went on as it was asked
     // to; "device failed", "output failed", "out of memory", "internal error": it broke off; "validation messages"
     std::string status = "done";
-    std::string failure;                       // the reason, when it is not done
+    std::string failure;                       // the reason, if the run is not done
     std::string reproducer;                    // file that replays the failure; empty: there is none
     std::optional<FrameFailure> failed_frame;  // the frame that was no result
     std::string run_key;                       // the run's key (kept_frames.h)
@@ -129,16 +129,17 @@ struct Manifest {
     Validation validation;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
-    std::vector<std::string> warnings;  // the texts that were told, compromises among them
+    std::vector<std::string> warnings;  // the warnings that were given, compromises included
     std::optional<SelfCollision> self_collision;
     std::vector<SplitTriangles> off_collider_edges;  // edges of boxes are not kept off these; the earliest first
     std::vector<SplitTriangles> off_wind;            // the wind does not act on these; the earliest first
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
-    // Calls the visitor for every frame, in order, as a long run's are not all in memory. Null: there are none.
+    // Calls the visitor for every frame, in order, since a long run's frames are not all in memory. Null: there are
+    // none.
     std::function<void(const FrameVisitor&)> statistics;
 
-    // The key "run" has these.
+    // The contents of the key "run".
     std::string created;  // utc_timestamp()
     std::vector<std::string> command_line;
     std::optional<FrameTime> frame_time;
@@ -154,11 +155,12 @@ std::string triangles_text(std::span<const Manifest::SplitTriangles> split);
 // Returns a time as "2024-05-31T12:00:00Z".
 std::string utc_timestamp(std::chrono::system_clock::time_point time = std::chrono::system_clock::now());
 
-// Hands UTF-8 JSON to `append` piece by piece; doubles have the fewest digits that read back as the same double. Throws
-// OutputError naming the number when one is not finite (JSON has no such numbers, and a run that has one is not done).
+// Passes UTF-8 JSON to `append` piece by piece; doubles have the fewest digits that read back as the same double.
+// Throws OutputError, which names the number, when one is not finite (JSON has no such numbers, and such a run is not
+// done).
 void put_manifest(const Manifest& manifest, const std::function<void(std::string_view)>& append);
 
-// The manifest of a folder, what is read of it of the types that are written. Throws OutputError naming the file.
+// The parts of a folder's manifest that are read, with the types for writing. Throws OutputError, which names the file.
 Json::Value read_manifest(const std::filesystem::path& folder);
 
 // Writes manifest.json after all files of the run have reached the disk. Throws OutputError.

@@ -43,7 +43,7 @@ std::vector<float> joined_vertices(const std::vector<PlacedCollider>& colliders)
 }
 
 void FaceSequence::add(const WrittenFrame& frame) {
-    // Cuts are told of as they are found, when frames before them may still wait for their pictures.
+    // Cuts are reported when they are found, while earlier frames may still wait for their pictures.
     std::erase_if(changes_, [&](Change& change) {
         const bool due = change.frame <= frame.number;
         if (due) run_.cloths[change.cloth].faces = std::move(change.faces);
@@ -60,7 +60,8 @@ void FaceSequence::add(const WrittenFrame& frame) {
     add_colliders(frame.number);
 }
 
-/// An earlier run's files go at the first write, so what stands still waits for the first frame, too.
+/// An earlier run's files are removed at the first write, so colliders that stand still are written with the first
+/// frame.
 void FaceSequence::add_colliders(std::uint32_t frame) {
     if (!std::exchange(still_written_, true)) write_colliders(false, still_colliders_name(extension_), frame);
     write_colliders(true, moving_colliders_name(frame, frame_digits(run_.end), extension_), frame);

@@ -1,4 +1,4 @@
-// Writes meshes as files: one per frame and cloth, in what a format makes of a mesh.
+// Writes meshes as files, one per frame and cloth, in a format's representation of a mesh.
 #pragma once
 
 #include "output/frame_writer.h"
@@ -17,13 +17,13 @@ struct PlacedCollider {
     std::vector<float> vertices;  ///< x y z each, m
 };
 
-/// How a format writes a file of a cloth, and one of colliders in a world with this axis up.
+/// How a format writes the file of a cloth, and the file of colliders in a world with this axis up.
 struct MeshTexts {
     std::string (*cloth)(const WrittenCloth& cloth, const WrittenMesh& mesh);
     std::string (*colliders)(const std::vector<PlacedCollider>& colliders, Up up);
 };
 
-/// Returns the corners of all triangles, the vertices numbered through.
+/// Returns the corners of all triangles, with the vertices numbered consecutively.
 std::vector<std::uint32_t> joined_faces(const std::vector<PlacedCollider>& colliders);
 /// Returns x y z of all vertices.
 std::vector<float> joined_vertices(const std::vector<PlacedCollider>& colliders);
@@ -54,7 +54,7 @@ class FaceSequence : public FrameWriter {
     void write_colliders(bool moving, const std::string& name, std::uint32_t frame);
 
     OutputFolder& folder_;
-    /// Faces that a cloth has from a frame on, which was not added yet.
+    /// The faces of a cloth from a frame on that has not been added yet.
     struct Change {
         std::uint32_t frame;
         std::size_t cloth;
@@ -66,7 +66,7 @@ class FaceSequence : public FrameWriter {
     std::string extension_;
     MeshTexts texts_;
     std::vector<FileRecord> files_;
-    bool still_written_ = false;  ///< colliders that stand still
+    bool still_written_ = false;  ///< colliders that stand still have been written
 };
 
 }  // namespace drape

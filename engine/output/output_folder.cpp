@@ -35,7 +35,7 @@ bool all_digits(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The digits behind the mark of a temporary name.
+// The digits after the mark of a temporary name.
 std::optional<std::string_view> process_in(std::string_view name) {
     const size_t mark = name.rfind(temporary_mark);
     if (mark == std::string_view::npos) return std::nullopt;
@@ -49,7 +49,7 @@ bool is_finished_file_name(std::string_view name) {
            std::ranges::any_of(output_formats(), [&](const OutputFormat* format) { return format->owns(name); });
 }
 
-// A file of one frame, of whatever run, would look like one of another run's beside them.
+// A frame's file, of whatever run, would look like one of another run beside this run's files.
 bool is_loose_frame_file_name(std::string_view name) {
     return std::ranges::any_of(output_formats(), [&](const OutputFormat* format) {
         return format->frame_files && !format->resumes && format->owns(name);
@@ -184,7 +184,7 @@ void OutputFolder::open_and_lock() {
 
 void OutputFolder::check_content(ExistingFiles existing) {
     std::vector<Entry> entries = list_entries(path_);
-    // Who holds the lock knows that nobody else is writing.
+    // The process that holds the lock knows that no other one is writing.
     std::erase_if(entries, [&](const Entry& entry) {
         const bool goes = !entry.is_folder && is_temporary_file_name(entry.name) &&
                           (is_locked_ || existing != ExistingFiles::refuse || is_left_over(entry.name));
@@ -202,7 +202,7 @@ void OutputFolder::check_content(ExistingFiles existing) {
     }
     std::set<std::string> listed;
     if (has_file(std::string(manifest_file_name))) {
-        // Programs of many kinds keep a manifest.json; ours would take the place of theirs.
+        // Many kinds of programs keep a manifest.json, which ours would replace.
         const auto names = names_in_manifest(path_ / manifest_file_name);
         if (!names) {
             throw OutputError(fmt::format("'{}' was not written by drape: choose another output folder",
@@ -222,7 +222,7 @@ void OutputFolder::check_content(ExistingFiles existing) {
 }
 
 void OutputFolder::check_writable() const {
-    // An unnamed file is the one probe that leaves nothing behind, even when killed in between.
+    // An unnamed file is the only probe that leaves nothing behind, even when the program is killed in between.
     const FileDescriptor probe(openat(descriptor_.get(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
     if (probe) return;
     int error = errno;
@@ -256,7 +256,7 @@ std::vector<std::uint8_t> OutputFolder::read_file(const std::string& name) const
         const ssize_t count = read(file.get(), bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) throw system_error_at("read", path_of(name), errno);
-        if (count == 0) bytes.resize(done);  // it was shortened meanwhile
+        if (count == 0) bytes.resize(done);  // the file was shortened meanwhile
         done += static_cast<size_t>(count);
     }
     return bytes;
@@ -289,7 +289,7 @@ void OutputFolder::expect_room(std::uint64_t bytes) const {
 void OutputFolder::begin_writing() {
     const std::scoped_lock lock(writing_mutex_);
     if (writing_begun_) return;
-    // The manifest goes first: a folder that lost some of its frames must not look done.
+    // The manifest is removed first: a folder that lost some of its frames must not look finished.
     std::ranges::stable_partition(files_to_remove_, [](const auto& name) { return name == manifest_file_name; });
     for (const std::string& name : files_to_remove_) {
         if (unlinkat(descriptor_.get(), name.c_str(), 0) != 0 && errno != ENOENT) {

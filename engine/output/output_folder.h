@@ -17,10 +17,10 @@ inline constexpr std::string_view manifest_file_name = "manifest.json";
 // The manifest's "format" key has this value, by which a later run knows that a manifest.json is drape's.
 inline constexpr std::string_view manifest_format = "drape manifest 1";
 
-// How a folder that is not empty is treated. What killed runs left unfinished does not count, and goes in any case.
+// How a folder that is not empty is treated. Unfinished files of killed runs do not count, and are removed in any case.
 enum class ExistingFiles {
     refuse,
-    overwrite,  // remove what an earlier run wrote, leave every other file alone
+    overwrite,  // remove what an earlier run wrote, and keep every other file
     resume,     // keep the earlier run's files, except its manifest ("done"), its unfinished temporaries, and files of
                 // single frames that do not say which run they are of
 };
@@ -88,12 +88,12 @@ class OutputFolder {
 // Returns whether a name stays in its folder: it is not empty, "." or "..", and has no '/'.
 bool is_plain_file_name(std::string_view name);
 
-// Return whether the program gives its files such a name (those of its formats and manifest.json) or, while they are
-// being written, such a temporary name.
+// Return whether the program gives this name to files (of its formats, or manifest.json), or to temporary files while
+// it writes them.
 bool is_output_file_name(std::string_view name);
 bool is_temporary_file_name(std::string_view name);
 
-// Whether the file has a temporary name of any file, by a process that no longer runs here.
+// Returns whether this is the temporary name of any file, by a process that no longer runs here.
 bool is_left_over(std::string_view name);
 
 }  // namespace drape

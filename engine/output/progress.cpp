@@ -16,7 +16,7 @@ namespace {
 
 constexpr double redraw_interval = 0.1;  // seconds
 constexpr double line_interval = 30.0;
-constexpr double long_frame = 1.0;  // from then on what is done to it is told
+constexpr double long_frame = 1.0;  // seconds, from which on the line shows what is done for a frame
 // The rate is that of the latest frames: the first ones pay for pipelines, and scenes grow harder on contact.
 constexpr size_t recent_limit = 33;
 

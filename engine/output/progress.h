@@ -8,8 +8,9 @@
 
 namespace drape {
 
-// Says on stderr how far a run is: frame, share, milliseconds per frame, time left. On a terminal one line is redrawn
-// (at most ten times a second); elsewhere a line comes every 10 % or 30 s. There are no colours, so NO_COLOR holds.
+// Shows the progress of a run on stderr: frame, share, milliseconds per frame, time left. On a terminal one line is
+// redrawn (at most ten times a second); elsewhere a line comes every 10 % or 30 s. There are no colours, so NO_COLOR
+// holds.
 class Progress {
   public:
     struct Options {
@@ -30,14 +31,13 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Notes that attempt 1, 2, ... at a frame begins, with so many substeps: the line shows it where a frame takes
-    // long.
+    // Notes that attempt 1, 2, ... at a frame begins, with so many substeps: the line shows it if a frame takes long.
     void frame_begun(std::int64_t frame, std::uint32_t substeps, std::uint32_t attempt);
 
     // Counts a frame as done; the line shows its number, and after the times a note on it, if any.
     void frame_done(std::int64_t frame, std::string note = {});
 
-    // Writes a line of text, also when quiet, without tearing the progress line.
+    // Writes a line of text, also when quiet, without breaking the progress line.
     void message(std::string_view text);
 
     // Ends the progress line. Idempotent.
@@ -52,7 +52,7 @@ class Progress {
     std::uint64_t frame_count_;
     Options options_;
     std::uint64_t done_count_ = 0;
-    std::string what_;  // "frame 12", or what is being done to it
+    std::string what_;  // "frame 12", or what is currently done for it
     std::string note_;
     std::deque<double> recent_;  // times when the latest frames were done, oldest first
     double last_report_;

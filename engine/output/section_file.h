@@ -11,7 +11,7 @@
 
 namespace drape {
 
-// A file of named sections ends with a checksum (engine/docs/checkpoint.md).
+// A file of named sections, which ends with a checksum (engine/docs/checkpoint.md).
 using Sections = std::map<std::string, std::vector<std::byte>>;
 
 struct SectionFormat {
@@ -23,7 +23,7 @@ struct SectionFormat {
 inline constexpr SectionFormat checkpoint_format{"DRAPECKP", "checkpoint", 1};
 inline constexpr SectionFormat reproducer_format{"DRAPEREP", "reproducer", 1};
 
-// A file ends with the XXH3-128, low half first, of all before it.
+// A file ends with the XXH3-128, low half first, of everything before it.
 using SectionChecksum = std::array<std::byte, 16>;
 SectionChecksum section_checksum(std::span<const std::byte> bytes);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view stem = "colliders";
 
-/// Every triangle becomes four, between its corners and the middles of its edges.
+/// Splits every triangle into four, by its corners and the middles of its edges.
 void split_triangles(WrittenCollider& collider) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {

@@ -8,15 +8,15 @@
 
 namespace drape {
 
-/// A ZIP archive of files as they are, or deflated, which appears under its name complete or not at all. Its bytes
-/// depend on its parts alone, as every date is the same.
+/// A ZIP archive of files, stored or deflated, which appears under its name complete or not at all. Its bytes depend on
+/// its parts alone, since all dates are the same.
 class ZipFile {
   public:
     ZipFile(OutputFolder& folder, std::string name, bool deflates)
         : file_(folder, std::move(name)), deflates_(deflates) {}
 
     void add(std::string part_name, std::string bytes) { parts_.push_back({std::move(part_name), std::move(bytes)}); }
-    /// Adds what `contents`, which must live until the commit, holds by then.
+    /// Adds a part with the content that `contents`, which must live until the commit, has at that time.
     void add(std::string part_name, const AtomicFile& contents) {
         parts_.push_back({std::move(part_name), {}, &contents});
     }
@@ -27,7 +27,7 @@ class ZipFile {
   private:
     struct Part {
         std::string name, bytes;
-        const AtomicFile* contents = nullptr;  ///< instead of bytes
+        const AtomicFile* contents = nullptr;  ///< in the place of bytes
     };
 
     AtomicFile file_;

@@ -13,8 +13,8 @@ std::vector<RasterCloth> raster_cloths(const SimulationModel& model, const std::
 
 class ClothRaster {
   public:
-    /// Makes the pass anew where a cloth was cut, or has got spring shares, for the first time. What was recorded with
-    /// the old one must not run any more.
+    /// Remakes the pass when a cloth is cut, or gets spring shares, for the first time. Recordings with the old pass
+    /// must not run any more.
     void fit(const vulkan::Device& device, const SceneDescription& scene, const PictureOptions& options,
              const std::vector<CutTopology>& topologies);
     explicit operator bool() const { return pass_ != nullptr; }
@@ -22,7 +22,7 @@ class ClothRaster {
 
   private:
     std::unique_ptr<RasterPass> pass_;
-    bool cut_ = false, masked_ = false;  ///< the pass was made for these
+    bool cut_ = false, masked_ = false;  ///< what the pass was made for
 };
 
 }  // namespace drape

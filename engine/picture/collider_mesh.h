@@ -1,4 +1,4 @@
-// The scene's colliders become instances of the collider shaders' meshes, in one buffer per frame.
+// Turns the scene's colliders into instances of the collider shaders' meshes, in one buffer per frame.
 #pragma once
 
 #include <array>
@@ -19,32 +19,33 @@ struct ColliderDraw {
     int kind = glsl::kind_plane;
     std::uint32_t round_columns = glsl::most_round_columns;
     std::uint32_t vertex_count = 0;
-    bool has_corners = false;        ///< it is a mesh, whose vertices are in a buffer
+    bool has_corners = false;        ///< it is a mesh, with its vertices in a buffer
     std::uint32_t first_vertex = 0;  ///< of a mesh
     std::uint32_t first_instance = 0, instance_count = 0;
     bool casts_shadow = false;
-    bool closed = true;  ///< nobody outside sees its inner side
+    bool closed = true;  ///< its inner side is not visible from outside
 };
 
-/// The round mesh of each kind has so many segments (shaders/shared/collider_types.h).
+/// The number of segments in the round mesh of each kind (shaders/shared/collider_types.h).
 using RoundColumns = std::array<std::uint32_t, glsl::collider_kind_count>;
 
-/// Returns as few segments as keep the outline of a circle of `radius` pixels within a tenth of a pixel: they cut into
-/// it by radius (1 - cos(pi/n)). It is a multiple of 4, at least 12, at most most_round_columns.
+/// Returns the smallest number n of segments that keeps the outline of a circle of `radius` pixels within a tenth of a
+/// pixel: the segments deviate from it by radius (1 - cos(pi/n)). It is a multiple of 4, at least 12, at most
+/// most_round_columns.
 std::uint32_t round_columns(double radius);
 
-/// Returns a bound, in pixels, of a sphere, or of an ellipsoid's or capsule's largest circle, at `time` (s), as seen
-/// from the camera in a picture of so many rows. It is 0 for a shape that is not round.
+/// Returns a bound on the radius in pixels of a sphere, or of an ellipsoid's or capsule's largest circle, at `time`
+/// (s), as the camera sees it in a picture with so many rows. It is 0 for a shape that is not round.
 double radius_in_pixels(const Collider& collider, double time, const Camera& camera, std::uint32_t height);
 
-/// Returns the kinds that the scene has, those that may hide most first; each mesh is a draw of its own.
+/// Returns the kinds in the scene, those that may hide most first; each mesh is a draw of its own.
 std::vector<ColliderDraw> collider_draws(const std::vector<Collider>& colliders, const RoundColumns& columns);
 
 /// Returns the corners of all meshes at `time` (s), in the order of their draws: three for each triangle. Edges between
 /// triangles that turn by less than 40 degrees look round.
 std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& colliders, double time);
 
-/// Planes, which have no end, are drawn as a square around the point below `center`.
+/// Planes, which are unbounded, are drawn as a square around the point below `center`.
 struct PlaneExtent {
     Vec3 center{0, 0, 0};
     double half_side = 1;      ///< m
@@ -54,7 +55,7 @@ struct PlaneExtent {
 /// Returns the pose in which a plane is drawn: y is its normal, x and z run along the grid's lines.
 ColliderPose plane_pose(const Collider& plane, double time);
 
-/// Returns them in the order that `collider_draws` counts, with poses at `time` (s).
+/// Returns the instances in the order in which `collider_draws` counts them, with poses at `time` (s).
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
                                                        const PlaneExtent& extent, double time);
 

@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-/// Makes one vertex of all corners that have one key.
+/// Merges all corners with the same key into one vertex.
 template <class Key>
 class Joined {
   public:
@@ -32,7 +32,8 @@ class Joined {
     std::size_t corners_ = 0;
 };
 
-/// Joins what `vertex_of` makes of corners and columns. The last column is the first one, and a pole is one vertex.
+/// Merges the vertices that `vertex_of` makes of corners and columns. The last column is the first one, and a pole is a
+/// single vertex.
 template <class VertexOf>
 ColliderSurface round_surface(int kind, int columns, const VertexOf& vertex_of) {
     Joined<std::array<int, 2>> joined;

@@ -16,13 +16,13 @@ struct ColliderSurface {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A plane, which has no end, is a square of this half side, m, around the point of it below `center` at time 0.
+/// A plane, which is unbounded, becomes a square of this half side, m, around its point below `center` at time 0.
 struct PlaneSquare {
     Vec3 center{0, 0, 0};
     double half_side = 1;
 };
 
-/// Returns a square around all else in the scene.
+/// Returns a square that contains everything else in the scene.
 PlaneSquare plane_square(const SceneDescription& scene);
 
 /// Returns the surface of any collider; its vertices lie on the true one. Round ones have `columns` segments around, a
@@ -30,7 +30,7 @@ PlaneSquare plane_square(const SceneDescription& scene);
 /// from the kind alone. A mesh has the triangles of its file, its vertices in the order of their places.
 ColliderSurface collider_surface(const Collider& collider, int columns, const PlaneSquare& square);
 
-/// Returns where the surface is at a time, s.
+/// Returns the pose of the surface at a time, s.
 ColliderPose surface_pose(const Collider& collider, double time);
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// In a colour map equal steps of a value look like equal steps of colour.
+// Colour maps, in which equal steps of a value look like equal steps of colour.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ extern const ColorMap viridis;
 /// table of Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009.
 extern const ColorMap cool_warm;
 
-/// Returns sRGB, 0 to 255, at a place; beyond the ends it is theirs.
+/// Returns sRGB, 0 to 255, at a place; beyond an end, the colour of that end.
 std::array<double, 3> color_at(const ColorMap& map, double place);
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// Poles, rails and knobs hold a pinned cloth in the picture. They are drawn and cast shadows; no cloth touches them.
+// Poles, rails and knobs that hold a pinned cloth in the picture. They are drawn and cast shadows, but touch no cloth.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct Fixture {
 /// is false or more than 256 pins would need one.
 std::vector<Fixture> fixtures(const SceneDescription& scene);
 
-/// Returns the collider that is drawn for it at `time` (s).
+/// Returns the fixture as a collider for drawing at `time` (s).
 Collider posed(const Fixture& fixture, double time);
 
 }  // namespace drape

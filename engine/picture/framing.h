@@ -1,4 +1,4 @@
-// Finds how far a scene reaches, and from where it is looked at when it does not say.
+// Finds the extent of a scene, and a camera for a scene that names none.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ struct Glyph {
     std::array<std::uint8_t, glyph_height> rows;
 };
 
-/// Percentages and titles are made of these.
+/// The characters of percentages and titles.
 constexpr Glyph glyphs[] = {
     {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}}, {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
     {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}}, {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
@@ -87,7 +87,7 @@ void draw_legend(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_
     const LegendBar bar = legend_bar(width, height);
     const std::array<std::string, 3> labels{percent_text(scale.high), percent_text(0.5 * (scale.low + scale.high)),
                                             percent_text(scale.low)};
-    std::size_t letters = scale.title.size();  // the widest line's, counted from the bar
+    std::size_t letters = scale.title.size();  // of the widest line, counted from the bar
     for (const std::string& label : labels) letters = std::max(letters, label.size() + 2);
     const auto columns = static_cast<std::uint32_t>(letters) * advance * unit;
     canvas.fill(4 * unit, 4 * unit, columns + 13 * unit, bar.y + bar.height + 4 * unit, paper, paper_share);

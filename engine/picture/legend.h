@@ -8,11 +8,11 @@
 
 namespace drape {
 
-/// Smaller pictures than this, in pixels, get no legend.
+/// Pictures smaller than this, in pixels, get no legend.
 inline constexpr std::uint32_t legend_least_width = 160, legend_least_height = 120;
 
-/// The bar of colours has this place in a picture, in pixels; its top row shows the scale's high end, its bottom row
-/// the low one.
+/// The place of the colour bar in a picture, in pixels; its top row shows the high end of the scale, its bottom row the
+/// low one.
 struct LegendBar {
     std::uint32_t x, y, width, height;
 };

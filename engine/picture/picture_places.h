@@ -1,4 +1,4 @@
-// Framing and fixtures share this.
+// Functions that framing and fixtures share.
 #pragma once
 
 #include <optional>

@@ -15,8 +15,8 @@ namespace {
 
 using Corners = std::array<std::array<double, 2>, 2>;
 
-/// Returns the least and the largest x, y, pixels, of the corners of a box around a body; nothing where the picture may
-/// show it anywhere.
+/// Returns the smallest and the largest x, y, pixels, of the corners of a box around a body; nothing if it may appear
+/// anywhere in the picture.
 std::optional<Corners> bounds_of(const Collider& body, double time, const Camera& camera, std::uint32_t width,
                                  std::uint32_t height) {
     const double reach = shape_geometry(body.shape).reach;
@@ -54,7 +54,7 @@ std::uint32_t PictureTiles::constant(std::string_view name) const {
 
 void PictureTiles::mark(const std::array<double, 2>& low, const std::array<double, 2>& high,
                         std::vector<std::uint32_t>& marks) const {
-    // Two pixels more at either side stand for rounding, and for pictures that are moved by parts of a pixel.
+    // A margin of two pixels at either side allows for rounding, and for pictures that are moved by parts of a pixel.
     const auto tile = [&](double at, std::uint32_t size) {
         return static_cast<std::uint32_t>(std::clamp(at, 0.0, size - 1.0)) >> shift_;
     };

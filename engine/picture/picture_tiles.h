@@ -1,5 +1,5 @@
-// The tiles of a picture (shaders/include/picture_tiles.h). Only those in which something may be drawn are cleared and
-// looked at: to clear all samples of a picture took longer than to draw in it, on a CPU as on a GPU (docs/devices.md).
+// The tiles of a picture (shaders/include/picture_tiles.h). Only tiles in which something may be drawn are cleared and
+// processed: clearing all samples of a picture took longer than drawing in it, on a CPU and on a GPU (docs/devices.md).
 #pragma once
 
 #include <array>
@@ -17,11 +17,12 @@ class PictureTiles {
   public:
     PictureTiles(std::uint32_t width, std::uint32_t height);
     std::uint32_t count() const { return across_ * down_; }
-    /// The shaders' constants, and one of them by its name.
+    /// Return the shaders' constants, and one of them by its name.
     std::vector<vulkan::SpecializationConstant> constants() const;
     std::uint32_t constant(std::string_view name) const;
 
-    /// Returns what the shaders' buffer holds for these bodies at `time` (s): 1 where one may be drawn, and 0.
+    /// Returns the contents of the shaders' buffer for these bodies at `time` (s), by tile: 1 where a body may be
+    /// drawn, otherwise 0.
     std::vector<std::uint32_t> marks(std::span<const Collider> bodies, double time, const Camera& camera) const;
 
   private:

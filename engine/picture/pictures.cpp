@@ -9,8 +9,9 @@ namespace drape {
 
 namespace {
 
-/// Returns how many frames may wait for their pictures: a probe's and some, as long as their positions take no more
-/// than 64 MiB. Where cloth is cut these are only those in flight, as a cut asks for the pictures of all before it.
+/// Returns how many frames may wait for their pictures: those of a probe and a few more, while their positions take at
+/// most 64 MiB. Where cloth is cut, only frames in flight may wait, since a cut requires the pictures of all earlier
+/// frames.
 std::size_t most_pending(const SimulationModel& model) {
     constexpr std::size_t most = 16, most_bytes = std::size_t{64} << 20;
     if (model.scene.comes_apart()) return vulkan::frame_slot_count;
@@ -59,8 +60,8 @@ void Pictures::record() {
 void Pictures::follow(const std::vector<CutTopology>& topologies) {
     for (PendingPicture& picture : pending_) {
         if (picture.has_picture) continue;
-        if (!picture.slot) begin(picture, *free_slot());  // frames before it have left theirs
-        FrameCopy kept;                                   // the slot's buffer may go
+        if (!picture.slot) begin(picture, *free_slot());  // earlier frames have freed theirs
+        FrameCopy kept;                                   // the slot's buffer may be reused
         kept.keep(drawn(picture));
         picture = {std::move(kept), {}, true};
     }
@@ -72,7 +73,7 @@ void Pictures::follow(const std::vector<CutTopology>& topologies) {
                         solver_.topologies()[cloth].masked() != topologies[cloth].masked();
     }
     solver_.topologies() = topologies;
-    build();  // the recording says how much is drawn
+    build();  // the recording contains how much is drawn
     if (new_resources) return allocate();
     for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) solver_.upload_cut(*pool_, cloth, before[cloth]);
     record();
@@ -126,7 +127,7 @@ bool Pictures::is_there(const PendingPicture& picture) const {
 void Pictures::deliver(const Finished& finished) {
     const PendingPicture& first = pending_.front();
     const FinishedFrame frame = first.has_picture ? first.frame.frame() : drawn(first);
-    const PendingPicture done = std::move(pending_.front());  // the frame's spans look into it
+    const PendingPicture done = std::move(pending_.front());  // the frame's spans point into it
     pending_.pop_front();
     finished(frame);
 }

@@ -1,5 +1,5 @@
-// A device of its own draws pictures while another simulates the next frames (Device::for_scene). It is given positions
-// alone: it makes the normals, and what cuts left to draw, as the simulating device would.
+// Draws pictures on a device of its own while another one simulates the next frames (Device::for_scene). It receives
+// positions alone, and computes normals and the cut triangles to draw as the simulating device would.
 #pragma once
 
 #include <deque>
@@ -14,11 +14,11 @@
 
 namespace drape {
 
-/// A frame whose picture waits to be drawn, is being drawn, or is there.
+/// A frame whose picture waits to be drawn, is being drawn, or is done.
 struct PendingPicture {
     FrameCopy frame;
     std::optional<std::uint32_t> slot;  ///< the slot that draws it
-    bool has_picture = false;           ///< the copy has it
+    bool has_picture = false;           ///< the copy contains the picture
 };
 
 class Pictures {
@@ -28,15 +28,15 @@ class Pictures {
     /// `device` and `model` must outlive it.
     Pictures(const vulkan::Device& device, const SimulationModel& model, const PictureOptions& options);
 
-    /// Takes a frame that has positions. It is given to `finished` with its picture, in order, by a later call of any
-    /// of these three, and with positions only where the options want them. Waits for a picture only where more frames
-    /// wait than may: those of a probe come all at once, and are to be drawn while the next ones are simulated.
+    /// Takes a frame with positions. A later call of one of these three functions passes it to `finished` with its
+    /// picture, in order, and with positions only if the options ask for them. Waits for a picture only if more frames
+    /// wait than are allowed: the frames of a probe come all at once, and are drawn while the next ones are simulated.
     void draw(const FinishedFrame& frame, const Finished& finished);
-    /// Gives frames whose pictures are there and begins to draw others. Waits for none.
+    /// Passes on frames whose pictures are done, and begins to draw others. Does not wait.
     void go_on(const Finished& finished);
-    /// Gives all frames that are not given yet.
+    /// Passes on all remaining frames.
     void flush(const Finished& finished);
-    /// The next frames are of cloth that was cut like this.
+    /// The next frames belong to cloth with these cuts.
     void follow(const std::vector<CutTopology>& topologies);
 
     const graph::Graph& graph() const { return graph_; }
@@ -47,13 +47,13 @@ class Pictures {
     void allocate();
     void record();
     std::optional<std::uint32_t> free_slot() const;
-    /// Begins as many of those that wait as there are slots.
+    /// Begins to draw as many waiting frames as there are free slots.
     void begin_waiting();
     void begin(PendingPicture& picture, std::uint32_t slot);
-    /// Returns the frame of a slot, drawn; the picture lies in the slot's buffer.
+    /// Returns the frame that a slot has drawn; the picture is in the slot's buffer.
     FinishedFrame drawn(const PendingPicture& picture);
     bool is_there(const PendingPicture& picture) const;
-    /// Gives the first of the frames that wait.
+    /// Passes on the first of the waiting frames.
     void deliver(const Finished& finished);
 
     const vulkan::Device& device_;
@@ -65,7 +65,7 @@ class Pictures {
     graph::Plan plan_;
     std::unique_ptr<graph::ResourcePool> pool_;
     std::unique_ptr<graph::RecordedPlan> recorded_;
-    vulkan::FrameSlots slots_;  ///< goes, and waits for work in flight, before what that uses
+    vulkan::FrameSlots slots_;  ///< destroyed first: it waits for submits that use what is above
     std::size_t most_pending_;
     std::deque<PendingPicture> pending_;  ///< in order
 };

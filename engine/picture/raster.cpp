@@ -18,7 +18,7 @@ namespace drape {
 using graph::Access;
 using graph::Handle;
 
-/// A frame's passes write these one after the other; the handles are the newest.
+/// The passes of a frame write these resources one after the other; the handles are the newest versions.
 struct RasterPass::Targets {
     Handle frame;
     Handle colliders;    ///< invalid where no body is drawn
@@ -32,7 +32,7 @@ struct RasterPass::Targets {
 
 namespace {
 
-/// Radiance goes beyond 1, and light is averaged before it is encoded.
+/// The format allows radiance beyond 1, and light is averaged before it is encoded.
 constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat shadow_format = VK_FORMAT_R32_SFLOAT;
@@ -62,7 +62,7 @@ glsl::uint pattern_number(Pattern pattern) {
 glsl::ClothPush cloth_push(const RasterCloth& cloth) {
     const auto u = static_cast<float>(cloth.size_u);
     const auto v = static_cast<float>(cloth.size_v);
-    // Folds are looked for at a sixteenth of the cloth.
+    // Folds are searched for at a distance of a sixteenth of the cloth.
     const std::uint32_t reach = std::max(1u, std::max(cloth.columns, cloth.rows) / 16);
     return {{cloth.columns, cloth.rows, pattern_number(cloth.appearance.pattern), reach},
             {u, v, std::min(u, v) / 8, static_cast<float>(cloth.thickness)},
@@ -205,8 +205,8 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
                                       {"round_columns", range.round_columns}};
         state.constants = shadow_state.constants;
         state.constants.insert(state.constants.end(), lit.begin(), lit.end());
-        // A body that has an end is closed: nobody outside sees its inner side. The shadow map's y runs up, so that
-        // there the outer side turns the other way.
+        // A bounded body is closed: its inner side is not visible from outside. The y axis of the shadow map points up,
+        // so there the outer side turns the other way.
         state.cull = range.casts_shadow && range.closed ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
         shadow_state.cull = range.closed ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
         draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
@@ -243,7 +243,7 @@ std::vector<Collider> RasterPass::drawn_bodies(double time) const {
     return bodies;
 }
 
-/// Returns the columns for the largest bodies of each kind, looked for at so many moments.
+/// Returns the columns for the largest bodies of each kind, examined at this number of times.
 RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
     constexpr int moments = 64;
     const double end = scene.time.frame_count / scene.time.fps;

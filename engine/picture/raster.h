@@ -30,12 +30,12 @@ struct RasterCloth {
     std::string name;
     std::uint32_t columns = 0, rows = 0;
     double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
-    double thickness = 0;           ///< m; a collider that its triangles cut is drawn so far behind it
+    double thickness = 0;  ///< m; a collider that its triangles cut into is drawn farther away by this distance
     Appearance appearance;
     graph::Handle position, normal, indices;
     std::uint32_t index_count = 0;
-    graph::Handle cut_vertices = {};   ///< valid on a cut cloth: indices from columns * rows on are in this buffer
-    graph::Handle spring_shares = {};  ///< valid with holes or cuts: 0 where there is no spring
+    graph::Handle cut_vertices = {};   ///< valid on a cut cloth: the vertices with indices from columns * rows on
+    graph::Handle spring_shares = {};  ///< valid with holes or cuts: 0 where a spring does not exist
     std::array<double, 2> rest_lengths{0, 0};  ///< m, of springs along columns, rows; 0: no such springs
 };
 
@@ -44,17 +44,17 @@ struct RasterOptions {
     PictureView view;
     bool cut = false;     ///< some cloth has cut vertices: their pipelines are made
     bool masked = false;  ///< some cloth has spring shares: their pipelines are made
-    /// The picture is moved by so many pixels right and down: pictures moved by parts of a pixel add up to one of many
-    /// samples.
+    /// The picture is shifted by so many pixels to the right and down: the mean of pictures shifted by parts of a pixel
+    /// is a picture with many samples.
     std::array<double, 2> shift{0, 0};
-    /// Fragments get the frame's constants with their triangle (shaders/include/lit_constants.h), to the same bytes;
-    /// nothing: what is faster on the device.
+    /// Whether fragments receive the frame's constants with their triangle (shaders/include/lit_constants.h), which
+    /// changes no byte; nothing: the faster way for the device.
     std::optional<bool> constants_by_triangle;
 };
 
 class RasterPass {
   public:
-    /// Makes the pipelines that the scene needs and no others. `samples`: 1 or 4.
+    /// Makes the pipelines that the scene needs. `samples`: 1 or 4.
     RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width, std::uint32_t height,
                std::uint32_t samples, const RasterOptions& options = {});
     RasterPass(const RasterPass&) = delete;
@@ -65,16 +65,16 @@ class RasterPass {
     /// The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
-    /// Fills what stays the same from frame to frame; call it once for each pool.
+    /// Fills the data that is the same in all frames; call it once for each pool.
     void upload(const graph::ResourcePool& pool) const;
 
     /// Fills the host inputs of a slot for the picture at `time` (s).
     void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
 
-    /// Draws what is drawn on the host, the legend of a heat map, into a picture that was read back.
+    /// Draws into a picture that was read back what the host draws: the legend of a heat map.
     void finish(std::span<std::byte> rgba) const;
 
-    /// Returns whether the encoding pass reads the samples, not what they were resolved to.
+    /// Returns whether the encoding pass reads the samples themselves instead of a resolved image.
     bool is_sampled() const { return samples_ > 1 && !resolves_; }
     bool casts_shadow() const { return shadow_skip_reason_.empty(); }
     std::uint64_t readback_byte_count() const;
@@ -100,7 +100,7 @@ class RasterPass {
     };
     struct Targets;
 
-    /// A cloth is drawn by one of these, by what it has.
+    /// The pipelines for cloths, chosen by what a cloth has.
     struct ClothPipelines {
         std::unique_ptr<vulkan::GraphicsPipeline> whole, masked, cut;
         const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
@@ -130,9 +130,9 @@ class RasterPass {
 
     std::vector<Collider> colliders_;
     std::vector<Fixture> fixtures_;
-    std::vector<glsl::MeshCorner> mesh_corners_;  ///< where nothing deforms; else those of the start
-    bool deforms_;                                ///< some mesh does: its corners are told for every frame
-    bool has_floor_ = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
+    std::vector<glsl::MeshCorner> mesh_corners_;  ///< if nothing deforms; otherwise those of the start
+    bool deforms_;                                ///< some mesh deforms: its corners are passed for every frame
+    bool has_floor_ = false;  ///< a plane that is not among the colliders here, since the encoding pass draws it
     PlaneExtent plane_extent_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow

@@ -63,7 +63,7 @@ void write_shadow(const SceneDescription& scene, const BoundingSphere& extent, g
     for (std::size_t i = 0; i < 3; ++i) constants.shadow_from_world[i] = texel(matrix.axes[i], matrix.middle[i]);
 }
 
-/// Returns the directions of sight, in the world: [0] + x [1] + y [2] at the pixels' place (x, y).
+/// Returns the viewing directions, in the world: [0] + x [1] + y [2] at the pixel (x, y).
 std::array<Vec3, 3> sight_rays(const PictureGeometry& picture) {
     const Matrix4 view = view_matrix(picture.camera);
     const Matrix4 projection = projection_matrix(picture.camera, picture.width, picture.height);
@@ -76,7 +76,7 @@ std::array<Vec3, 3> sight_rays(const PictureGeometry& picture) {
     return {corner, x, y};
 }
 
-/// The floor's coordinates have these axes in the world; y is its normal.
+/// The axes of the floor's coordinates, in the world; y is its normal.
 struct FloorFrame {
     Vec3 x, y, z, center;
 };
@@ -102,7 +102,8 @@ void write_floor_light(const SceneDescription& scene, const Collider& plane, con
     floor.first = texel(lit(sums[1]), 0);
 }
 
-/// Does as include/raster_lights.h for any surface: moved off by a texel, each texel compared with its plane.
+/// Computes the shadow's place as include/raster_lights.h does for any surface: shifted by a texel, each texel compared
+/// with its plane.
 void write_floor_shadow(const SceneDescription& scene, const BoundingSphere& extent, const FloorFrame& frame,
                         glsl::FloorConstants& floor) {
     const ShadowMatrix matrix = shadow_matrix(scene, extent);
@@ -118,7 +119,7 @@ void write_floor_shadow(const SceneDescription& scene, const BoundingSphere& ext
     floor.first.w = static_cast<float>(per_texel * dot(off_surface, matrix.axes[1]));
 }
 
-/// Lights and shadow are written before.
+/// Lights and shadow must be written before this.
 void write_floor(const SceneDescription& scene, const Collider& collider, const PictureGeometry& picture,
                  glsl::FrameConstants& constants) {
     const PlaneExtent extent = plane_extent(picture.camera, picture.extent);
@@ -130,7 +131,7 @@ void write_floor(const SceneDescription& scene, const Collider& collider, const 
     const std::array<Vec3, 3> rays = sight_rays(picture);
     for (std::size_t i = 0; i < rays.size(); ++i) floor.ray[i] = texel(local(rays[i]), 0);
     floor.eye = texel(local(sum(picture.camera.position, pose.center, -1)), extent.line_distance);
-    // The floor hides nothing that lies on it: rounding may put that a little under.
+    // The floor hides nothing that lies on it, which rounding may put slightly below it.
     constants.above_floor = texel(normal, floor.eye.y * 1e-4 - dot(normal, pose.center));
     floor.fade = texel(local(sum(extent.center, pose.center, -1)), extent.half_side);
     write_floor_light(scene, collider, normal, floor);
@@ -165,7 +166,7 @@ std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, cons
         const ColliderPose pose = collider_pose(collider, 0);
         const Vec3 normal = rotate(pose.rotation, plane->normal);
         const double height = dot(normal, sum(camera.position, pose.center, -1));
-        // Seen from lower down its pixels would be drawn from too few digits.
+        // Seen from lower down, its pixels would be computed from too few digits.
         if (height > 1e-3 * length(sum(camera.position, camera.target, -1))) return i;
     }
     return std::nullopt;

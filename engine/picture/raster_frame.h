@@ -20,8 +20,8 @@ std::uint32_t light_count(const SceneDescription& scene);
 double fade_radius(const Camera& camera, const BoundingSphere& extent);
 PlaneExtent plane_extent(const Camera& camera, const BoundingSphere& extent);
 
-/// Returns the plane that the encoding pass draws behind all else: the first of the colliders that keeps still with the
-/// camera above it.
+/// Returns the plane that the encoding pass draws behind everything else: the first of the colliders that stands still
+/// with the camera above it.
 std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, const Camera& camera);
 
 struct PictureGeometry {

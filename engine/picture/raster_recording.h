@@ -10,16 +10,16 @@
 
 namespace drape {
 
-/// A pass renders into these; they are filled while it is set up, and used when it is recorded.
+/// The attachments of a pass, filled while it is set up and used when it is recorded.
 struct RasterAttachments {
     graph::Handle color;
     graph::Handle depth = {};  ///< invalid: none
     graph::Handle resolve;     ///< invalid: none
-    bool cleared = false;      ///< colour to 1, and depth; or else they hold anything
+    bool cleared = false;      ///< colour is cleared to 1, and depth; otherwise their contents are undefined
 };
 
-/// Begins dynamic rendering over the whole attachments, viewport and scissor set; depth is cleared to 1 (the far end),
-/// and forgotten at the end, like the samples when they are resolved.
+/// Begins dynamic rendering over the whole attachments and sets viewport and scissor. Depth is cleared to 1 (the far
+/// end) and discarded at the end, like the samples when they are resolved.
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments);
 
 void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_t index_count);

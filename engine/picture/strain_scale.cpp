@@ -12,7 +12,8 @@ namespace {
 
 constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 20;
 
-/// Returns N/m on an edge that bears the cloth's weight, as often as pins and folds gather it, or the wind's push.
+/// Returns the load, N/m, on an edge that bears the cloth's weight, multiplied as pins and folds concentrate it, or the
+/// wind's push.
 double edge_force(const Cloth& cloth, const SceneDescription& scene) {
     const double fastest = length(strongest_wind(scene.wind)) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
     const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;

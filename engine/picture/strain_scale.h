@@ -1,4 +1,4 @@
-// Tells which colour of a picture stands for which strain.
+// Which colour of a picture means which strain.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,8 @@ struct StrainScale {
 /// times a power of ten, from 0.1 % to 50 %. The scene alone decides it, so that colours mean the same in all frames.
 double default_strain_range(const SceneDescription& scene);
 
-/// Returns nothing where the view shows no strain. `stretch` runs from 0 on, the others to both sides of 0.
+/// Returns nothing if the view shows no strain. The scale of `stretch` begins at 0; the others extend to both sides of
+/// 0.
 std::optional<StrainScale> strain_scale(const PictureView& view, const SceneDescription& scene);
 
 }  // namespace drape

@@ -134,12 +134,12 @@ bool Checkpoints::due() const {
 
 void Checkpoints::write(RunCheckpoint checkpoint) {
     checkpoint.journal_length = journal_.sync();
-    folder_.sync();  // puts the names of the frames before it on the disk
+    folder_.sync();  // the directory's entries of the earlier frames reach the disk
     const std::string name = checkpoint_file_name(checkpoint.next_frame);
     write_file(folder_, name, encode_sections(checkpoint_format, sections_of(checkpoint, run_key_)));
     folder_.sync();
     std::vector<std::string> names = names_in(folder_);
-    // Those after it belong to a run that did not get so far with what is there now, or are damaged.
+    // Newer checkpoints belong to a run that has since gone back, or are damaged.
     std::erase_if(names, [&](const std::string& other) { return other == name; });
     const auto older = std::ranges::find_if(names, [&](const std::string& other) { return other < name; });
     for (const std::string& other : names)
@@ -153,7 +153,7 @@ std::optional<RunCheckpoint> Checkpoints::last() const {
             std::string key;
             const std::vector<std::uint8_t> bytes = folder_.read_file(name);
             return checkpoint_of(decode_sections(checkpoint_format, std::as_bytes(std::span(bytes))), key);
-        } catch (const std::runtime_error&) {  // an older one serves
+        } catch (const std::runtime_error&) {  // an older checkpoint may be readable
         }
     }
     return std::nullopt;

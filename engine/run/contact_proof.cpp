@@ -10,7 +10,7 @@ namespace drape {
 
 namespace {
 
-/// Returns the frame from which on cloths that started through each other are apart.
+/// Returns the frame from which on cloths that started through each other have been apart.
 std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Simulation& simulation) {
     if (!told.last_crossed || *told.last_crossed + 1 >= simulation.next_frame()) return std::nullopt;
     return *told.last_crossed + 1;

@@ -14,7 +14,8 @@ namespace glsl {
 
 namespace {
 
-/// Returns a particle's distance to what contact keeps it from, m: to a mesh by its triangles, which need no field.
+/// Returns a particle's distance, m, to the shape that contact keeps it out of. For a mesh the triangles give it,
+/// without a field.
 float distance_to(const Collider& kept, const glsl::ColliderRecord& record, const glsl::vec3& world,
                   const glsl::vec3& local) {
     if (const Mesh* mesh = special(kept.shape).mesh)
@@ -43,7 +44,7 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
             if (xyzw[4 * particle + 3] == 0) continue;
             const glsl::vec3 world{xyzw[4 * particle], xyzw[4 * particle + 1], xyzw[4 * particle + 2]};
             const glsl::vec3 local = glsl::local_point(record, world);
-            // Bounds spare the costly distances. A plane's costs no more than they.
+            // A test of bounds spares the costly distances. A plane's distance costs no more than the test.
             if (!special(kept.shape).plane && glsl::beyond_reach(kind, record, world, reach)) continue;
             const float distance = distance_to(kept, record, world, local);
             if (distance > nearest[particle]) continue;

@@ -1,4 +1,4 @@
-// An exception stands for the exit code and the message that a command ends with.
+// Translates an exception into the exit code and the message with which a command ends.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace drape {
 struct Failure {
     ExitCode code;
     std::string text;
-    bool is_located = false;  ///< the text says itself where: nothing stands before it
+    bool is_located = false;  ///< the text names the place itself, so no prefix is needed
 };
 
 /// Returns the failure of the current exception. Call it in a catch block.

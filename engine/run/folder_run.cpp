@@ -13,7 +13,7 @@ namespace drape {
 
 namespace {
 
-/// Throws Error for a record of other cloths: the writer of the file may have made its checksum as well.
+/// Throws Error for a record whose cloths are not the scene's: a journal written by others may have a correct checksum.
 void expect_of_scene(const JournalRecord& record, const SceneDescription& scene) {
     const auto particles = [](const Cloth& cloth) { return std::uint64_t{cloth.grid[0]} * cloth.grid[1]; };
     const auto fits = [&](const std::vector<std::vector<float>>& arrays) {
@@ -31,8 +31,8 @@ void expect_of_scene(const JournalRecord& record, const SceneDescription& scene)
         throw Error("a record of another scene");
 }
 
-/// Returns the checkpoint that a run goes on from: what it does not simulate again has to be there, as pictures and,
-/// for arrays, in the journal.
+/// Returns the checkpoint from which a run goes on: everything before it must be there, as pictures and, for arrays, in
+/// the journal.
 std::optional<RunCheckpoint> resumed_from(std::optional<Checkpoints>& checkpoints, const RunRequest& request,
                                           const SceneDescription& scene, const FrameRange& range,
                                           const MissingFrames& missing,
@@ -58,10 +58,11 @@ std::optional<RunCheckpoint> resumed_from(std::optional<Checkpoints>& checkpoint
     return checkpoints->newest(usable, say);
 }
 
-/// Frames that a resumed run keeps still cut, and still have to be proved: the manifest speaks of all of them.
+/// The cuts and the proof of contact of frames that a resumed run keeps belong to its manifest too, so such scenes need
+/// every frame.
 bool needs_every_frame(const SceneDescription& scene) { return scene.comes_apart() || cloths_meet(scene); }
 
-/// Returns what to tell a run that did not keep what `auto` aims at.
+/// Returns the warning for a run that did not keep the limits of `auto`.
 std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics,
                                          const RunVerdict& verdict) {
     if (facts.limits_are_kept) return statistics.inexact_motion();
@@ -75,8 +76,8 @@ std::optional<std::string> missed_limits(const SimulationFacts& facts, const Run
         rms, largest, facts.tolerance_rms, facts.tolerance_worst);
 }
 
-/// Returns the frames of a run that did not come to its end, as far as they were written. Where none was, the end lies
-/// before the start.
+/// Returns the frames that were written of a run that did not reach its end. If none was written, the end precedes the
+/// start.
 Manifest::Frames written_frames(Manifest::Frames frames, const RunStatistics& statistics) {
     frames.count = 0;
     frames.end = frames.start - frames.step;
@@ -87,7 +88,7 @@ Manifest::Frames written_frames(Manifest::Frames frames, const RunStatistics& st
     return frames;
 }
 
-/// Returns what a run is warned of when all of its frames are there.
+/// Returns the warnings about a run that has all of its frames.
 std::vector<std::string> closing_warnings(const Simulation& simulation, Sink& sink) {
     std::vector<std::string> warnings;
     for (const auto& warning :
@@ -149,7 +150,7 @@ void FolderRun::begin(Simulation& simulation) {
                   planned_.missing.kept, keeps_checkpoints() ? &checkpoints_->journal() : nullptr);
 }
 
-/// Takes the simulation to the checkpoint, and tells the writers what they were told before it.
+/// Restores the simulation from the checkpoint, and repeats to the writers what they received before it.
 void FolderRun::go_on() {
     const RunCheckpoint& from = *from_;
     const FrameRange& range = planned_.range;
@@ -196,8 +197,8 @@ void FolderRun::take(const FinishedFrame& frame) {
     if (!planned_.missing.kept.contains(frame.frame)) ++summary_.frame_count;
 }
 
-/// Returns what is said of a run whose frames cannot go on: a run again would fail again at the same frame, so what
-/// came before it is the result.
+/// Returns what the message of a run that cannot go on adds: a new run would fail at the same frame, so the frames
+/// before it are the result.
 std::string FolderRun::consequence() const {
     const std::uint64_t written = summary_.frame_count + summary_.kept_count;
     if (written == 0) return "; nothing was written";
@@ -247,7 +248,8 @@ void FolderRun::write_checkpoint() {
     checkpoints_->write(std::move(checkpoint));
 }
 
-/// Runs to the last frame, with checkpoints when they are due and where it is stopped. Returns whether it came to it.
+/// Simulates to the last frame, with checkpoints when they are due and when the run is stopped. Returns whether it
+/// reached the last frame.
 bool FolderRun::run_with_checkpoints(const FrameRequest& request) {
     const auto& [last, wanted, finished, stopped] = request;
     if (!keeps_checkpoints()) return simulation_->run(last, wanted, finished, stopped);
@@ -259,7 +261,7 @@ bool FolderRun::run_with_checkpoints(const FrameRequest& request) {
             // Frames that method auto has simulated ahead are handed out first, which takes no time.
             if (!simulation_->can_save()) return false;
             const std::uint32_t frame = simulation_->next_frame();
-            due = begun != frame && frame > saved && checkpoints_->due();  // for none is an attempt given up
+            due = begun != frame && frame > saved && checkpoints_->due();  // no attempt is given up for a checkpoint
             begun = frame;
             return due || stopped();
         };
@@ -272,18 +274,18 @@ bool FolderRun::run_with_checkpoints(const FrameRequest& request) {
     return false;
 }
 
-/// Leaves the files of a run that is done, or of one that failed as far as it came.
+/// Completes the files of a run that is done, or the files of a failed run as far as it came.
 void FolderRun::finish_files() {
     manifest_.cuts = sink_->cuts();
     const std::shared_ptr<const RunStatistics> statistics = sink_->statistics();
     manifest_.statistics = [statistics](const Manifest::FrameVisitor& take) { statistics->for_each_frame(take); };
-    // Frames that were kept may not have been simulated again.
+    // This run may not have simulated the frames that it kept, so the statistics decide.
     manifest_.solver.stretch_error =
         std::max(manifest_.solver.stretch_error, statistics->worst_of_run("/stretch_error_rms"));
     try {
         if (!summary_.complete) manifest_.frames = written_frames(manifest_.frames, *statistics);
         sink_->add_timings(manifest_);
-        // Arrays of a run that something broke are no result; those before a frame that fails again are one.
+        // Arrays of a run that was broken off are no result; those before a frame that would fail again are one.
         const bool whole =
             summary_.complete || (failure_ && failure_->frame && summary_.frame_count + summary_.kept_count > 0);
         manifest_.files = sink_->finish(whole, summary_.dropped);
@@ -293,7 +295,7 @@ void FolderRun::finish_files() {
     }
 }
 
-/// Leaves a reproducer to be replayed. What keeps it from being written has been told, or is told of the manifest.
+/// Writes a reproducer for replay. A failure to write it has been reported, or is reported about the manifest.
 void FolderRun::leave_reproducer() {
     if (failure_->status == output_failed) return;
     Reproducer reproducer{
@@ -306,7 +308,7 @@ void FolderRun::leave_reproducer() {
     reproducer.reason = failure_->reason;
     reproducer.failed = failure_->frame;
     reproducer.checkpoint = checkpoints_->last();
-    // Later checkpoints are of no use in a run that went on.
+    // Later checkpoints of a run that went on after the failure are of no use.
     if (reproducer.checkpoint && failure_->frame && reproducer.checkpoint->next_frame > failure_->frame->frame)
         reproducer.checkpoint.reset();
     try {
@@ -318,11 +320,12 @@ void FolderRun::leave_reproducer() {
         if (request_.message)
             request_.message(fmt::format("note: `drape replay {}` goes to this failure again",
                                          folder_->path_of(reproducer_file_name)));
-    } catch (const OutputError&) {  // the run's own failure is told
+    } catch (const OutputError&) {  // the run's own failure is reported instead
     }
 }
 
-/// The manifest says how a run ended, also where it failed. Checkpoints go where it would end there again.
+/// Writes the manifest, which says how the run ended even if it failed. Removes checkpoints if a resumed run would end
+/// the same way.
 void FolderRun::end_with_manifest() {
     if (failure_) {
         manifest_.status = failure_->status;
@@ -335,7 +338,7 @@ void FolderRun::end_with_manifest() {
     try {
         write_manifest(*folder_, manifest_);
     } catch (const OutputError&) {
-        if (!failure_) throw;  // else the first failure is told, which keeps this file from being written too
+        if (!failure_) throw;  // otherwise the first failure is reported, which also prevented this file
     }
     if (!failure_ || failure_->frame) checkpoints_->remove_all();
 }

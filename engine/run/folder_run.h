@@ -1,5 +1,5 @@
-// A run of a scene into a folder, or into a stream: what is said before the frames are simulated, what is done with
-// them, and what is left behind.
+// A run of a scene into a folder or a stream: what is reported before frames are simulated, what is done with the
+// frames, and which files remain.
 #pragma once
 
 #include <memory>
@@ -16,26 +16,27 @@ namespace drape {
 
 class FolderRun {
   public:
-    /// Reads the scene, checks all that can be checked up front, and opens the folder. `device`: another run's, which
-    /// this one shares; nothing: it opens its own. Throws like run_scene. `request` must outlive it.
+    /// Reads the scene, checks everything that can be checked in advance, and opens the folder. `device`: one that
+    /// another run shares with this one; nothing: this run opens its own. Throws like run_scene. `request` must outlive
+    /// this object.
     FolderRun(const RunRequest& request, const std::optional<Device>& device = {});
     FolderRun(const FolderRun&) = delete;
     FolderRun& operator=(const FolderRun&) = delete;
 
     const SceneDescription& scene() const { return planned_.scene.description; }
     const Device& device() const { return *device_; }
-    /// Returns the options of the simulation that it needs, whose callbacks tell this run.
+    /// Returns the options of the simulation that this run needs; their callbacks report to this run.
     SimulationOptions options();
-    /// Is given the simulation, which must live until `finish`.
+    /// Receives the simulation, which must live until `finish`.
     void begin(Simulation& simulation);
-    /// Simulates what is missing, with checkpoints.
+    /// Simulates the missing frames, with checkpoints.
     void simulate();
-    /// Returns what a run that goes on together with others asks for; `take_end` is then told how that ended.
+    /// Returns the request of a run that proceeds together with others; `take_end` is then told how it ended.
     FrameRequest frames();
     void take_end(const RequestEnd& end);
-    /// Leaves the files of the frames, and takes from the simulation what the manifest says.
+    /// Completes the files of the frames, and takes from the simulation what the manifest says.
     void finish();
-    /// Writes the manifest. Throws what the run failed by.
+    /// Writes the manifest. Throws the exception by which the run failed.
     RunSummary end();
 
   private:
@@ -44,7 +45,7 @@ class FolderRun {
         FrameRange range;
         std::string key;
         MissingFrames missing;
-        std::size_t count = 0;  ///< of frames that this run is to write
+        std::size_t count = 0;  ///< number of frames that this run is to write
     };
 
     void say(const std::string& text) const;
@@ -67,7 +68,7 @@ class FolderRun {
     std::optional<OutputFolder> folder_;
     std::optional<Device> device_;
     std::optional<Checkpoints> checkpoints_;  ///< nothing for a stream
-    std::optional<RunCheckpoint> from_;       ///< it goes on from this
+    std::optional<RunCheckpoint> from_;       ///< the checkpoint from which the run goes on
     Manifest manifest_;
     std::optional<RunFailure> failure_;
     Simulation* simulation_ = nullptr;

@@ -11,7 +11,7 @@ namespace drape {
 
 namespace {
 
-constexpr const char* whole_frame = "frame";  // stands beside the stages, none of which has that name
+constexpr const char* whole_frame = "frame";  // a column beside the stages, none of which has this name
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The finished frames of a run go to the writers of its formats, its statistics and its times.
+// Passes the finished frames of a run to the writers of its formats, and to its statistics and times.
 #pragma once
 
 #include <chrono>
@@ -17,32 +17,32 @@
 
 namespace drape {
 
-/// Returns the formats of these names, each once. Throws UsageError.
+/// Returns the formats with these names, each once. Throws UsageError.
 std::vector<const OutputFormat*> output_formats(const std::vector<std::string>& names);
 
 class Sink {
   public:
-    /// `folder` is nothing for a stream, `kept` are the frames whose pictures are there already, `journal` is told of
-    /// everything too. All must outlive this.
+    /// `folder` is nothing for a stream; `kept` are the frames whose pictures exist already; `journal` receives
+    /// everything too. All must outlive this object.
     Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const SceneDescription& scene,
          const WrittenRun& run, const std::map<std::uint32_t, KeptFrame>& kept, Journal* journal = nullptr);
 
     void add(const FinishedFrame& frame);
     void add_cut(const Cut& cut);
-    /// Repeats what an earlier run told its sink; the pictures of such frames are there.
+    /// Repeats what an earlier run passed to its sink; the pictures of these frames exist.
     void repeat(const JournalRecord& frame);
     void repeat_cut(const JournalRecord& cut);
-    /// Waits until the files of single frames are whole.
+    /// Waits until the files of single frames are complete.
     void flush();
 
     const std::vector<Manifest::Cut>& cuts() const { return cuts_; }
-    /// Returns statistics of the frames added, and of those that a resumed run keeps.
+    /// Returns the statistics of the frames added, and of those that a resumed run keeps.
     std::shared_ptr<const RunStatistics> statistics() const { return statistics_; }
-    /// Returns what the progress line says of the frame added last.
+    /// Returns the progress line's remark on the frame that was added last.
     std::string note() const { return statistics_->note(latest_); }
 
-    /// Returns the files of all formats, those kept included. A run that was stopped has only the files of single
-    /// frames, as the others would look complete: `dropped` says which.
+    /// Returns the files of all formats, the kept ones included. A run that was stopped has only files of single
+    /// frames, since the others would look complete; `dropped` receives the formats left out.
     std::vector<FileRecord> finish(bool complete, std::vector<std::string>& dropped);
     void add_timings(Manifest& manifest) const;
 
@@ -63,7 +63,7 @@ class Sink {
     std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;
     std::shared_ptr<RunStatistics> statistics_;
-    std::optional<FrameTable> times_;  ///< ms, for the stages and the whole frame; nothing for a stream
+    std::optional<FrameTable> times_;  ///< ms, of the stages and the whole frame; nothing for a stream
     FrameValues latest_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };

@@ -1,4 +1,4 @@
-// Which frames a run has to hand out, and what must be there before it begins.
+// Which frames a run has to hand out, and what must exist before it begins.
 #pragma once
 
 #include <map>
@@ -13,20 +13,20 @@
 
 namespace drape {
 
-/// Some frames of the range have to be handed out; the pictures of others are there already.
+/// The frames of the range that have to be handed out; the pictures of the others exist already.
 struct MissingFrames {
     std::set<std::uint32_t> frames;
     std::map<std::uint32_t, KeptFrame> kept;
 };
 
-/// Throws UsageError when a format cannot be written so, or cannot hold what the scene does.
+/// Throws UsageError when a format cannot be written as requested, or cannot hold what the scene has.
 void check_formats(const RunRequest& request, const SceneDescription& scene);
 bool needs_positions(const RunRequest& request);
-/// Returns whether some format needs every picture, those of kept frames too.
+/// Returns whether some format needs every picture, including those of kept frames.
 bool needs_every_picture(const RunRequest& request);
 MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const RunRequest& request,
                              const FrameRange& range, const std::string& key);
-/// Throws OutputError where the disk has not what all frames take at least.
+/// Throws OutputError where the disk lacks the space that all frames need at least.
 void expect_room(const OutputFolder& folder, const RunRequest& request, const SceneDescription& scene,
                  const FrameRange& range);
 

@@ -10,7 +10,7 @@ namespace drape {
 
 namespace {
 
-/// Returns the reproducer's device where it is, unless another is asked for.
+/// Returns the reproducer's device if it exists, unless another one is requested.
 std::string device_for(const ReplayRequest& request, const Reproducer& reproducer) {
     if (!request.device.empty()) return request.device;
     const std::vector<DeviceInfo> devices = Device::list();
@@ -18,7 +18,7 @@ std::string device_for(const ReplayRequest& request, const Reproducer& reproduce
     return same == devices.end() ? std::string() : reproducer.device.uuid;
 }
 
-/// Returns why bits may differ; empty: they may not.
+/// Returns why bits may differ; empty: there is no reason.
 std::string difference(const Reproducer& reproducer, const DeviceInfo& device) {
     if (reproducer.program_version != program_version())
         return fmt::format("the run was of version {}, this is {}", reproducer.program_version, program_version());
@@ -28,7 +28,7 @@ std::string difference(const Reproducer& reproducer, const DeviceInfo& device) {
     return {};
 }
 
-/// Returns what is not as the reproducer says of its last good frame.
+/// Returns which values of the last good frame differ from the reproducer's.
 std::string different_values(const Reproducer& reproducer, const FrameValues& values) {
     for (const auto& [name, value] : reproducer.last_frame->values) {
         const auto found = values.find(name);
@@ -39,7 +39,7 @@ std::string different_values(const Reproducer& reproducer, const FrameValues& va
     return {};
 }
 
-/// Runs to the failure or the end.
+/// Simulates to the failure or the end.
 Replay replayed(Simulation& simulation, const Reproducer& reproducer, const ReplayRequest& request) {
     Replay replay;
     std::string different;

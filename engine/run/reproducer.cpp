@@ -18,7 +18,7 @@ namespace drape {
 namespace {
 
 constexpr const char *about_part = "about", *scene_part = "scene", *checkpoint_prefix = "checkpoint/";
-/// This value is not a frame's own: it depends on the first frame too.
+/// This value depends on the first frame too, so it cannot be compared by itself.
 constexpr const char* drift = "energy_drift_j";
 
 Json::Value settings_json(const Reproducer& reproducer) {

@@ -20,7 +20,7 @@ std::string hash_of(const Values& values) {
     return xxh3_128_hex(std::as_bytes(std::span(values)));
 }
 
-/// Returns the hash of what a key of the cloth has from a file, whatever that is called.
+/// Returns the hash of what a key of the cloth takes from a file, whatever the file's name.
 std::string given_hash(ClothKey key, const Cloth& cloth) {
     switch (key) {
         case ClothKey::start:
@@ -39,7 +39,7 @@ std::string given_hash(ClothKey key, const Cloth& cloth) {
             return has_skin(cloth) ? hash_of(cloth.particle_friction) : "";
         case ClothKey::particle_thickness:
             return has_skin(cloth) ? hash_of(cloth.particle_thickness) : "";
-        // The scene's text says these.
+        // The scene's text contains these values.
         case ClothKey::name:
         case ClothKey::grid:
         case ClothKey::size:
@@ -93,7 +93,8 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
 }  // namespace
 
 LoadedScene load(const SceneRequest& request) {
-    // The file is read once: what is hashed is what is run, also when it changes meanwhile or is a pipe.
+    // The file is read once, so that the hashed text is the one that is simulated, even if the file changes meanwhile
+    // or is a pipe.
     return loaded_scene(request, read_scene(request.path, request.overrides));
 }
 
@@ -147,7 +148,7 @@ SceneDescription asked_scene(const SceneRequest& request) { return load(request)
 
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format) {
     const SceneDescription scene = load(request).description;
-    const Device device(request.device, validation_if(request.validate));  // there is one graph, on one device
+    const Device device(request.device, validation_if(request.validate));  // the graph is a single one, on one device
     return Simulation(scene, simulation_options(request, draw, !draw, !draw), device).describe_plan(format);
 }
 

@@ -1,4 +1,4 @@
-// Runs a scene into a folder of pictures, arrays and meshes, or shows the graph that would run.
+// Runs a scene into a folder of pictures, arrays and meshes, or shows the graph of its work.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@
 
 namespace drape {
 
-/// Thrown when the command line asks for something that cannot be: exit code 2.
+/// Thrown when the command line asks for something impossible: exit code 2.
 class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A scene is asked to become this. Unset values are the scene's own.
+/// The scene that is requested, with changes. Unset values are those of the scene file.
 struct SceneRequest {
     std::string path;
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
@@ -35,29 +35,31 @@ struct SceneRequest {
     PictureView view;
     std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation
-    bool skip = true;       ///< false: keep the work of the exact skips (proof that they change nothing)
+    bool skip = true;       ///< false: do the work of the exact skips, to prove that they change nothing
     Kernels kernels = Kernels::automatic();
 };
 
 struct RunRequest {
     SceneRequest scene;
     std::string output;  ///< folder
-    /// The one format, which must be able to be a stream, gives its bytes to this instead of a folder. No manifest.
+    /// The only format, which must support streams, passes its bytes to this function instead of a folder. There is no
+    /// manifest.
     std::function<void(std::span<const std::byte>)> stream;
     ExistingFiles existing = ExistingFiles::refuse;
     std::vector<std::string> formats{"png"};  ///< names in output/frame_writer.h's table
-    bool deflates = false;                    ///< archives are packed; some format must be one
+    bool deflates = false;                    ///< archives are compressed; some format must be an archive
     std::optional<std::uint32_t> start, end;
     std::uint32_t step = 1;
-    /// Seconds between checkpoints; a run that is stopped writes one too. Nothing: it writes none at all.
+    /// Seconds between checkpoints; a run that is stopped writes one too. Nothing: no checkpoint is written at all.
     std::optional<double> checkpoint_interval = 60;
-    bool keep_failed = false;  ///< go on after a frame that is no result; one that is not finite ends the run anyway
-    bool quiet = false;        ///< no progress
-    bool verbose = false;      ///< notes on device, plan and memory through `message`
+    bool keep_failed =
+        false;             ///< go on after a frame that is no result; one that is not finite ends the run in any case
+    bool quiet = false;    ///< do not show progress
+    bool verbose = false;  ///< pass notes on device, plan and memory to `message`
     std::vector<std::string> command_line;
-    std::function<void(const std::string&)> message;  ///< warnings and notes, one line each, as they arise
-    std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish what is in flight and end
-    std::function<void()> saving;  ///< told before a checkpoint is written
+    std::function<void(const std::string&)> message;  ///< receives warnings and notes, one line each, as they arise
+    std::function<bool()> stop;    ///< asked before each attempt at a frame; true: finish submitted work and end
+    std::function<void()> saving;  ///< called before a checkpoint is written
 
     bool draws() const;    ///< some format needs pictures
     bool details() const;  ///< some format needs velocities and contacts
@@ -66,16 +68,16 @@ struct RunRequest {
 struct RunSummary {
     std::uint64_t frame_count = 0;            ///< frames written by this run
     std::uint64_t kept_count = 0;             ///< frames of an earlier run, kept by ExistingFiles::resume
-    std::uint64_t validation_count = 0;       ///< messages
+    std::uint64_t validation_count = 0;       ///< validation messages
     bool complete = true;                     ///< false: stopped before the last frame; no manifest was written
-    std::optional<std::uint32_t> checkpoint;  ///< next frame, where a stopped run can go on
-    std::vector<std::string> dropped;         ///< formats that a stopped run leaves nothing of
+    std::optional<std::uint32_t> checkpoint;  ///< the next frame, if a stopped run can go on
+    std::vector<std::string> dropped;         ///< formats of which a stopped run leaves no file
     std::vector<std::string> warnings;
 };
 
 /// Reads, simulates, draws and writes, the manifest last. Throws SceneFailure, UsageError, OutputError, Diverged,
-/// ToleranceMissed (where failed frames are kept, after the last), DeviceError; nothing is written before everything
-/// that can be checked up front has been.
+/// ToleranceMissed (after the last frame, where failed frames are kept), DeviceError. It checks everything that can be
+/// checked in advance before it writes anything.
 /// ExistingFiles::resume goes on with an earlier run of the same scene, size, samples, view, program, device and
 /// driver: from its newest checkpoint (engine/docs/checkpoint.md), or, where there is none that serves, from frame 0,
 /// keeping the pictures. The folder then holds the bytes of an undisturbed run, but for the manifest's "run". Pictures
@@ -87,19 +89,20 @@ RunSummary run_scene(const RunRequest& request);
 /// How one of several runs ended.
 struct RunEnd {
     std::size_t number = 0;           ///< of its request
-    bool complete = false;            ///< false: it was stopped, or it failed
+    bool complete = false;            ///< false: the run was stopped, or failed
     std::exception_ptr failure = {};  ///< what run_scene would have thrown
 };
-/// Makes the runs of scenes of one shape, for which method `auto` chooses the same, together on the first one's device:
-/// they share dispatches. No format draws, and there are no checkpoints. Each gets the bytes that run_scene makes of
-/// it. Tells of each run that ended. Throws DeviceError where the device fails, or cannot take them together; the runs
-/// that were not told of then have not ended.
+/// Simulates several scenes of one shape, for which method `auto` makes the same choice, together on the first one's
+/// device: they share dispatches. No format may draw, and there are no checkpoints. The files of each run equal, to the
+/// byte, those of run_scene. Calls `ended` for each run that ended. Throws DeviceError where the device fails, or
+/// cannot simulate them together; the runs that were not reported by then have not ended.
 void run_scenes_together(std::span<const RunRequest> requests, const std::function<void(const RunEnd&)>& ended);
 
-/// Returns the scene as it is asked for. Throws SceneFailure.
+/// Returns the scene with the requested changes. Throws SceneFailure.
 SceneDescription asked_scene(const SceneRequest& request);
 
-/// Returns the plan of one frame as text, json or dot. `draw` adds the picture's passes; else it is as `simulate` runs.
+/// Returns the plan of one frame as text, json or dot. `draw` adds the picture's passes; without it, the plan is that
+/// of `simulate`.
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
 
 const char* program_version();
@@ -107,20 +110,20 @@ const char* program_version();
 struct LoadedScene {
     SceneDescription description;
     std::string text;  ///< text of the file
-    std::string hash;  ///< hash of the text, the overrides and what they take from files: they decide the result
+    std::string hash;  ///< hash of the text, the overrides and the files that they name: these decide the result
     std::vector<std::string> warnings;
 };
 
 /// Throws SceneFailure.
 LoadedScene load(const SceneRequest& request);
-/// Loads a text that was read before.
+/// Loads a scene from a text that was read before.
 LoadedScene load_text(const SceneRequest& request, std::string text);
 
-/// Two runs with the same key give the same bytes for the same frame.
+/// Two runs with equal keys give the same bytes for the same frame.
 std::string key_of(const RunRequest& request, const LoadedScene& scene, const DeviceInfo& device);
 
 SimulationOptions simulation_options(const SceneRequest& request, bool draw, bool positions, bool velocities);
-/// Opens the device to run the scene with.
+/// Opens the device on which the scene is simulated.
 Device device_of(const SceneRequest& request, const SceneDescription& scene, bool draws);
 
 }  // namespace drape

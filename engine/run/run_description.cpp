@@ -16,7 +16,7 @@ namespace drape {
 
 namespace {
 
-/// Returns the scene as it is run, on one line of JSON.
+/// Returns the scene with all changes and defaults, on one line of JSON.
 std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded) {
     std::vector<std::string> overrides = request.overrides;
     const ImageSettings& image = loaded.description.image;
@@ -28,7 +28,7 @@ std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded
     return json_line(value);
 }
 
-/// Returns what the run chose, for who reads its arrays alone.
+/// Returns the values that the run chose, for readers of its arrays alone.
 std::string run_parameters(const SceneDescription& scene, const Manifest& manifest) {
     Json::Value value(Json::objectValue);
     value["program_version"] = manifest.program_version;

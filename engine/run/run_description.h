@@ -1,4 +1,4 @@
-// Describes a run for its manifest, its files and who watches it.
+// Describes a run for its manifest, its files and its messages.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ FrameRange frame_range(const RunRequest& request, const SceneDescription& scene,
 
 Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
                       const DeviceInfo& device, const FrameRange& range);
-/// Returns the run as the formats need it; `manifest` has the run's key.
+/// Returns the description of the run that formats need; `manifest` has the run's key.
 WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, const Simulation& simulation,
                        const Manifest& manifest);
-/// Returns what `-v` says before the first frame.
+/// Returns the notes of `-v` before the first frame.
 std::vector<std::string> notes(const Device& device, const Simulation& simulation);
 
 }  // namespace drape

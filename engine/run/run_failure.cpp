@@ -21,7 +21,7 @@ RunFailure kept_failure(const FrameFailure& failure) {
 
 namespace {
 
-/// Returns the failure of the exception being handled, which did not come from a frame's numbers.
+/// Returns the failure for the exception being handled, which was not caused by a frame's numbers.
 RunFailure broken_run(const std::exception& error) {
     const char* status = dynamic_cast<const OutputError*>(&error)      ? output_failed
                          : dynamic_cast<const DeviceError*>(&error)    ? "device failed"

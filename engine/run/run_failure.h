@@ -1,4 +1,4 @@
-// A run that ended before its end would end there again, or has frames that are no result.
+// Why a run ended before its last frame, where a new run would end at the same place, or which frames are no result.
 #pragma once
 
 #include <exception>
@@ -17,11 +17,11 @@ struct RunFailure {
     std::exception_ptr error;
 };
 
-/// Returns the failure of a frame, to be told as its reason and `consequence`.
+/// Returns the failure of a frame, whose message has its reason and `consequence`.
 RunFailure frame_run_failure(const FrameError& error, bool of_tolerance, const std::string& consequence);
-/// Returns what is said at the end of a run that went on.
+/// Returns the failure that is reported at the end of a run that went on after it.
 RunFailure kept_failure(const FrameFailure& failure);
-/// Returns the failure of what was thrown; `consequence` is told of a frame that is no result.
+/// Returns the failure for an exception; `consequence` is added to the message about a frame that is no result.
 RunFailure failure_of(const std::exception_ptr& thrown, const std::string& consequence);
 
 }  // namespace drape

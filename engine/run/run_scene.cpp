@@ -14,19 +14,19 @@ RunSummary run_scene(const RunRequest& request) {
         run.simulate();
         run.finish();
     }
-    return run.end();  // with the messages that the simulation's end had
+    return run.end();  // includes the messages that came when the simulation was destroyed
 }
 
 namespace {
 
-/// A run among others that go on together.
+/// One of several runs that proceed together.
 struct Together {
-    std::size_t number;  ///< of its request
+    std::size_t number;  ///< the number of its request
     std::unique_ptr<FolderRun> run;
     FrameRequest frames;
 };
 
-/// Calls `act` and tells of a run that throws. Returns whether it did not.
+/// Calls `act` and reports a run that throws. Returns whether it did not throw.
 template <class Act>
 bool tells_failure(std::size_t number, const std::function<void(const RunEnd&)>& ended, const Act& act) {
     try {

@@ -107,7 +107,7 @@ void RunStatistics::add(std::uint32_t frame, const FrameValues& values) {
     if (frames_) frames_->add(frame, values);
 }
 
-/// Returns the worst of the cloths.
+/// Returns the worst value over the cloths.
 std::optional<double> RunStatistics::worst(const FrameValues& values, std::string_view name) {
     std::optional<double> largest;
     for (const auto& [key, value] : values)

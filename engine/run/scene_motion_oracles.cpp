@@ -1,4 +1,4 @@
-// These checks judge how the cloth moves: free fall, energy, torque of the wind, mirror symmetry, friction's carry.
+// The checks about how the cloth moves: free fall, energy, torque of the wind, mirror symmetry, carrying by friction.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,15 +20,15 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Returns the way of damped ballistic flight: v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
+/// Returns the displacement in damped ballistic flight: v t + (v0 - v)(1 - e^(-c t))/c with v = g/c.
 Vec3 flown(const SceneDescription& scene, const Cloth& cloth, std::size_t particle, double t) {
     const double c = cloth.damping;
-    const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // way by a unit start velocity
-    const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // way by unit gravity
+    const double gone = c > 0 ? -std::expm1(-c * t) / c : t;     // displacement for a unit start velocity
+    const double fallen = c > 0 ? (t - gone) / c : 0.5 * t * t;  // displacement for unit gravity
     return plus(times(gone, start_velocity(cloth, particle)), times(fallen, gravity_at(scene, 0)));
 }
 
-/// Until anything holds or touches them, the particles of row `from_row` and on fly freely: within `error` metres.
+/// Until something holds or touches them, the particles from row `from_row` on fall freely, to within `error` metres.
 Verdict falls(const SceneRun& run, const Limits& limits) {
     const std::size_t index = limits.index("cloth"), last = std::min(limits.index("until_frame"), run.last_frame());
     const Cloth& cloth = run.scene.cloths.at(index);
@@ -47,10 +47,10 @@ Verdict falls(const SceneRun& run, const Limits& limits) {
 }
 
 struct Energy {
-    double kinetic, potential;  ///< J, means over the frame that follows
+    double kinetic, potential;  ///< J, means over the time to the next frame
 };
 
-/// Returns energies of mean velocities, whose kinetic energy is at most the mean kinetic energy.
+/// Returns the energies from mean velocities; this kinetic energy is at most the mean kinetic energy.
 Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, std::size_t cloth) {
     Energy energy{0, 0};
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
@@ -62,9 +62,9 @@ Energy energy_after(const SceneRun& run, const ClothMeasure& measure, std::size_
     return energy;
 }
 
-/// All that gravity gives from `from_frame` on, less what damping takes (2 c times kinetic energy per second), is there
-/// as motion: at the fastest moment until `until_frame` the kinetic energy is `least` to `most` of it. There is no
-/// wind, nothing is touched; the rest is strain and what the relaxation loses.
+/// All energy that gravity gives from `from_frame` on, less what damping takes (2 c times the kinetic energy per
+/// second), becomes motion: at the fastest moment until `until_frame`, the kinetic energy is `least` to `most` of it.
+/// The scene has no wind and no contact; the rest is strain and what the relaxation loses.
 Verdict swing(const SceneRun& run, const Limits& limits) {
     const std::size_t cloth = limits.index("cloth"), first = limits.index("from_frame");
     const std::size_t last = std::min(limits.index("until_frame"), run.last_frame());
@@ -87,7 +87,7 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
                         limits["least"], limits["most"])};
 }
 
-/// Returns the part of a vector about the vertical.
+/// Returns the component of a vector along the vertical.
 double about_up(const SceneRun& run, const Vec3& v) { return v[up_axis(run.scene.up)]; }
 
 /// Returns the torque of the wind about the vertical through `pole`, N m, by the scene format's force law.
@@ -117,7 +117,7 @@ double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corner
     return torque;
 }
 
-/// Returns the angular momentum about the vertical through `pole`, kg m^2/s, between a frame and the next.
+/// Returns the mean angular momentum about the vertical through `pole`, kg m^2/s, from a frame to the next.
 double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::size_t frame, const Vec3& pole) {
     double sum = 0;
     for (std::size_t particle = 0; particle < measure.mass.size(); ++particle) {
@@ -127,9 +127,9 @@ double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::s
     return sum;
 }
 
-/// A flag that is pinned along a vertical pole turns about it as the wind alone makes it: pins, springs and gravity
-/// have no torque about the pole, so dL/dt = torque - c L. From `from_frame` to `until_frame` the integral of that
-/// stays within `relative_error` of the impulse at stake, which is the integral of |torque|.
+/// A flag that is pinned along a vertical pole turns about the pole as the wind alone makes it: pins, springs and
+/// gravity have no torque about the pole, so dL/dt = torque - c L. Integrated from `from_frame` to `until_frame`, the
+/// difference between the two sides is at most `relative_error` of the integral of |torque|.
 Verdict torque(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const std::vector<std::uint32_t> corners = measure.grid.triangle_indices();
@@ -151,9 +151,9 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
                         impulse, 100 * limits["relative_error"])};
 }
 
-/// From `from_frame` on the flag streams along the wind: its centre lies, in the mean over time, within `degrees` of
-/// the wind's direction seen from the pole. And it flutters: the free edge's middle swings sideways by `flutter` metres
-/// (standard deviation) at least.
+/// From `from_frame` on the flag streams along the wind: seen from the pole, its centre lies, averaged over time,
+/// within `degrees` of the wind's direction. It also flutters: the middle of the free edge swings sideways with a
+/// standard deviation of at least `flutter` metres.
 Verdict blown(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const Vec3 pole = run.at(0, 0, 0), up = in_world(run.scene.up, {0, 1, 0}), blows = run.scene.wind.velocity;
@@ -180,9 +180,9 @@ Verdict blown(const SceneRun& run, const Limits& limits) {
                         limits["degrees"], flutter, limits["flutter"])};
 }
 
-/// A cloth that is mirrored in the plane x = 0 stays so until `until_frame`: RMS distance of a particle from its
-/// partner's mirror image, metres. (The order in which springs are relaxed is not symmetric; what differs is its
-/// error.)
+/// A cloth that is symmetric about the plane x = 0 stays so until `until_frame`, by the RMS distance of a particle from
+/// its partner's mirror image, metres. (The order in which springs are relaxed is not symmetric; the difference is an
+/// error of the relaxation.)
 Verdict mirror(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const Grid& grid = measure.grid;

@@ -1,4 +1,4 @@
-// Judges oracles, and has the checks about where the cloth is: strain, pins, contact.
+// Judges oracles, and defines the checks about where the cloth is: strain, pins, contact.
 #include "run/scene_oracles.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ Verdict judge(const SceneRun& run, const Oracle& oracle) {
 
 namespace {
 
-/// Calls visit(cloth, pin, particle) for all pinned particles; a later pin takes what it shares with an earlier one.
+/// Calls visit(cloth, pin, particle) for all pinned particles; the later of two pins that share a particle holds it.
 template <class Visit>
 void for_each_pinned(const SceneDescription& scene, const Visit& visit) {
     for (std::size_t index = 0; index < scene.cloths.size(); ++index) {
@@ -70,7 +70,8 @@ Verdict stretch_law_holds(const SceneRun& run, const Limits& limits) {
                         100 * spread, 100 * allowed)};
 }
 
-/// The RMS strain of all row and column springs, be it real or error, is limited in every frame of every cloth.
+/// In every frame, the RMS strain of all row and column springs of every cloth stays below a limit, whether the strain
+/// is real or an error.
 Verdict stretch_limited(const SceneRun& run, const Limits& limits) {
     Verdict verdict{true, fmt::format("allowed {}", limits["strain"])};
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
@@ -86,7 +87,7 @@ Verdict stretch_limited(const SceneRun& run, const Limits& limits) {
     return verdict;
 }
 
-/// Pins without motion and release never move by a bit.
+/// Pins without motion and release do not move by a bit.
 Verdict pins_hold(const SceneRun& run, const Limits&) {
     std::size_t pinned = 0, moved = 0;
     for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
@@ -122,7 +123,7 @@ Vec3 followed(const SceneRun& run, std::size_t cloth, const Pin& pin, const Vec3
             turned[2] + pivot[2] + motion.translation[2]};
 }
 
-/// Key-framed pins are where their path takes their rest position, in every frame until a release.
+/// In every frame until their release, particles of key-framed pins are where the pin's path takes their rest position.
 Verdict pins_follow(const SceneRun& run, const Limits& limits) {
     double worst = 0, farthest = 0;
     for_each_pinned(run.scene, [&](std::size_t cloth, const Pin& pin, std::size_t particle) {
@@ -193,7 +194,7 @@ Verdict released(const SceneRun& run, const Limits& limits) {
                         early, slowest, fastest, limits["seconds"], limits["least"], limits["most"])};
 }
 
-/// Something was cut, and so many pieces are left in the end.
+/// Something was cut, and the given number of pieces is left in the end.
 Verdict cut_pieces(const SceneRun& run, const Limits& limits) {
     if (run.cuts.empty()) return {false, "nothing of the scene is cut or torn"};
     std::size_t springs = 0;
@@ -203,8 +204,8 @@ Verdict cut_pieces(const SceneRun& run, const Limits& limits) {
                         limits["pieces"], run.cuts.back().crumbs)};
 }
 
-/// The particles that are not pinned weigh in the last frame what the uncut sheet gives them, by their inverse masses
-/// on the device, and as much cloth is drawn after every cut as before.
+/// In the last frame the particles that are not pinned have, by their inverse masses on the device, the masses that the
+/// uncut sheet gives them, and as much cloth is drawn after every cut as before.
 Verdict mass_kept(const SceneRun& run, const Limits& limits) {
     double worst = 0;
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
@@ -229,8 +230,8 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
             fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
 }
 
-/// Returns how far the deepest particle is below the surface that contact keeps (world/contact_shape.h) with the
-/// cloth's thickness on top, in units of half its least width; of a plane's in metres.
+/// Returns how far the deepest particle is below the surface that contact keeps (world/contact_shape.h), offset by the
+/// cloth's thickness. The unit is half of the collider's least width; for a plane, the metre.
 double deepest(const SceneRun& run, const Collider& collider) {
     const double size = special(collider.shape).plane ? 1 : shape_geometry(collider.shape).half_width;
     double depth = -std::numeric_limits<double>::infinity();
@@ -262,14 +263,14 @@ Verdict penetration(const SceneRun& run, const Limits& limits) {
         depths +=
             fmt::format("{}{:.2e} (of {})", depths.empty() ? "" : ", ", depth, collider_lists[collider.shape.index()]);
     }
-    // Something must touch, else the statement is empty.
+    // Something must touch, otherwise the statement would be empty.
     return {worst <= limits["depth"] && worst > -1e-3,
             fmt::format("deepest {}, allowed {:.2e}", depths, limits["depth"])};
 }
 
-/// The top of the cloth lies where the collider below puts it: `height` is the collider's top and the cloth's
-/// thickness; no higher than `above` (rounding, or a fold that stands up), no lower than `below` (the particles miss
-/// the very top).
+/// The top of the cloth lies where the collider below puts it. `height` is the top of the collider plus the cloth's
+/// thickness; the cloth is at most `above` higher (rounding, or a fold that stands up) and at most `below` lower (no
+/// particle lies on the very top).
 Verdict supported(const SceneRun& run, const Limits& limits) {
     double top = -1e300;
     for (const glsl::vec4& x : run.frames.back().at(limits.index("cloth")))
@@ -280,8 +281,8 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
-/// No triangle crosses another one, except within a cloth that does not meet itself where others do. A triangle that
-/// was split meets nothing.
+/// No triangle crosses another one, except within a cloth without self-contact that may touch other cloths. A triangle
+/// that was split touches nothing.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
     const std::vector<Cloth>& cloths = run.scene.cloths;
     const bool asked = cloths_meet(run.scene);
@@ -294,7 +295,7 @@ Verdict uncrossed(const SceneRun& run, const Limits&) {
     std::size_t worst = 0, worst_frame = 0, split = 0;
     auto cut = run.cuts.begin();
     for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
-        // A cut acts from the next frame on; the records without one say what there was at the start.
+        // A cut takes effect in the next frame; the records without a cut describe the start.
         for (; cut != run.cuts.end() && (cut->frame < frame || cut->springs == 0); ++cut) {
             split += (meshes[cut->cloth].indices.size() - cut->whole.size()) / 3;
             meshes[cut->cloth].indices = cut->whole;

@@ -1,5 +1,5 @@
-// Scene files name these checks as their oracles. Each is a statement of physics about the positions of all frames,
-// measured in double precision; its limits stand in the scene file.
+// The checks that scene files name as their oracles. Each is a statement of physics about the positions in all frames,
+// measured in double precision; its limits are in the scene file.
 #pragma once
 
 #include <span>
@@ -12,16 +12,16 @@ namespace drape::verify {
 
 struct Verdict {
     bool met;
-    std::string text;  ///< says what was measured, against which limit
+    std::string text;  ///< what was measured, and against which limit
 };
 
-/// An oracle has, by name, all limits of its check (scene/oracle_kinds.h).
+/// The limits of an oracle, by name; all limits of its check are there (scene/oracle_kinds.h).
 class Limits {
   public:
     explicit Limits(const Oracle& oracle) : oracle_(oracle) {}
-    /// Throws std::invalid_argument where no limit has that name.
+    /// Throws std::invalid_argument where no limit has this name.
     double operator[](const std::string& name) const;
-    /// Returns a limit that counts something, frames or cloths.
+    /// Returns a limit that is a number of frames or of cloths.
     std::size_t index(const std::string& name) const { return static_cast<std::size_t>((*this)[name]); }
 
   private:
@@ -33,12 +33,12 @@ struct SceneCheck {
     Verdict (*judge)(const SceneRun&, const Limits&);
 };
 
-/// These tables judge the checks: those of shape and contact, and those of motion.
+/// The tables of all checks: those about shape and contact, and those about motion.
 std::span<const SceneCheck> shape_checks();
 std::span<const SceneCheck> motion_checks();
 
-/// Judges a run by an oracle of a scene that was read. One that speaks of frames which the run does not have is judged
-/// by the frames there are. Throws std::invalid_argument for a check or a limit that no scene file can have.
+/// Judges a run by an oracle of a scene that was read. An oracle about frames that the run lacks is judged by the
+/// frames that exist. Throws std::invalid_argument for a check or a limit that no scene file can have.
 Verdict judge(const SceneRun& run, const Oracle& oracle);
 
 }  // namespace drape::verify

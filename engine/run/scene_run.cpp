@@ -50,7 +50,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     options.positions = wanted.positions;
     options.statistics = options.judges = wanted.frame != nullptr;
     options.timestamps = graph::TimestampMode::none;
-    listener.keep_promises = false;  // frames that break them are judged
+    listener.keep_promises = false;  // frames that miss a limit are judged later
     listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
         run.cuts.push_back(cut_record(event.frame, event.cloth, event.counts.springs, topology));
     };
@@ -76,7 +76,7 @@ ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
     : grid(scene.cloths[index]), spacing(grid_spacing(scene.cloths[index])) {
     const Cloth& cloth = scene.cloths[index];
     mass.assign(grid.particle_count(), 0);
-    // Each triangle gives its corners what makes a whole cell give a quarter of its mass to each corner.
+    // Each triangle adds to its corners so that a whole cell gives a quarter of its mass to each corner.
     for (std::uint32_t row = 0; row + 1 < grid.rows(); ++row)
         for (std::uint32_t column = 0; column + 1 < grid.columns(); ++column) {
             const double factor = grid.cell_density(static_cast<int>(column), static_cast<int>(row));

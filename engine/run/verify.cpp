@@ -31,7 +31,7 @@ struct Worst {
     std::string place() const { return fmt::format("frame {}, cloth '{}'", frame, cloth); }
 };
 
-/// Remembers what is judged of the frames.
+/// Keeps the values of frames that are judged in the end.
 class FrameWatch {
   public:
     explicit FrameWatch(const SimulationModel& model) : model_(model), watch_(model) {}
@@ -57,8 +57,8 @@ class FrameWatch {
     }
     std::uint32_t count() const { return count_; }
 
-    /// The last position error that a frame states, and what is allowed there, m; or the first frame from which on
-    /// there is none, with how far equally exact runs had parted.
+    /// The last position error that a frame states, and the allowed one, m; or else the first frame from which on no
+    /// error is stated, and how far equally exact runs had diverged.
     struct Motion {
         std::uint32_t frame = 0;
         double error = 0, allowed = 0, parted = 0;
@@ -66,7 +66,8 @@ class FrameWatch {
     };
     Worst stretch, error, penetration;
     std::optional<Motion> motion;
-    std::string nonsense, missed;  ///< the first frame that is not plausible, or misses its tolerance; empty: none
+    std::string nonsense,
+        missed;  ///< the first frame that is not plausible, and the first that misses its tolerance; empty: none
     bool finite = true;
 
   private:
@@ -84,13 +85,13 @@ class FrameWatch {
 
 Finding limit(const char* name, const char* what, const Worst& worst, double allowed, const char* unit) {
     if (!worst.known) return {name, true, fmt::format("{}: nothing to measure", what)};
-    // `<=` is false for a NaN, which is no result.
+    // `<=` is false for a NaN, so a NaN fails.
     return {name, worst.value <= allowed,
             fmt::format("{} at most {:.3g}{} ({}), allowed {:.3g}{}", what, worst.value, unit, worst.place(), allowed,
                         unit)};
 }
 
-/// Returns a judgement of the stated position error; where no positions could be right, it says so.
+/// Returns a judgement of the stated position error, or says that positions cannot be predicted.
 Finding motion_finding(const FrameWatch::Motion& motion) {
     if (motion.sensitive)
         return {"motion", true,
@@ -102,7 +103,7 @@ Finding motion_finding(const FrameWatch::Motion& motion) {
                         motion.frame, motion.allowed)};
 }
 
-/// Every run must keep these.
+/// The limits that every run must keep.
 std::vector<Finding> common_findings(const Request& request, const SimulationModel& model, const FrameWatch& frames) {
     std::vector<Finding> findings;
     findings.push_back({"plausible", frames.nonsense.empty(),
@@ -123,7 +124,7 @@ std::vector<Finding> common_findings(const Request& request, const SimulationMod
     return findings;
 }
 
-/// Returns "oracle/stretch", or "oracle/falls[2]" where the scene has several of it.
+/// Returns "oracle/stretch", or "oracle/falls[2]" where the scene has several oracles of this kind.
 std::string oracle_name(const SceneDescription& scene, std::size_t index) {
     const std::string& check = scene.oracles[index].check;
     const auto same = [&](const Oracle& oracle) { return oracle.check == check; };
@@ -145,7 +146,7 @@ std::vector<Finding> oracle_findings(const SceneRun& run, bool finite) {
     return findings;
 }
 
-/// Oracles look at all frames at once, which must fit into memory.
+/// Oracles look at all frames at once, which must fit into memory together.
 void check_memory(const SceneDescription& scene) {
     double particles = 0;
     for (const Cloth& cloth : scene.cloths) particles += static_cast<double>(cloth.grid[0]) * cloth.grid[1];

@@ -1,4 +1,4 @@
-// Reports what was judged to people, programs and test servers.
+// Reports the judgements to people, programs and test servers.
 #include <fmt/format.h>
 #include <json/json.h>
 

@@ -1,4 +1,4 @@
-// A scene's colliders as output formats write them.
+// A scene's colliders in the form that output formats write.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace drape {
 
-/// Returns them in the scene's order. Round ones have 48 segments around, so that their triangles lie within 0.21 % of
-/// the radius under the true surface.
+/// Returns the colliders in the scene's order. Round ones have 48 segments around, so that their triangles lie at most
+/// 0.21 % of the radius inside the true surface.
 std::vector<WrittenCollider> written_colliders(const SceneDescription& scene);
 
-/// Returns them as obstacles of a graph network, whose nodes see nodes alone: round ones have 24 segments around, faces
-/// of planes and boxes nodes inside. Their numbers of nodes and triangles follow from kinds and meshes alone.
+/// Returns the colliders as obstacles of a graph network, whose nodes see only other nodes: round ones have 24 segments
+/// around, and faces of planes and boxes have inner nodes. The numbers of nodes and triangles depend on kinds and
+/// meshes alone.
 std::vector<WrittenCollider> written_obstacles(const SceneDescription& scene);
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// The proof about contact between cloths is kept frame by frame, from what the device counts.
+// Keeps the proof about contact between cloths, frame by frame, from what the device counts.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace drape {
 
-/// Returns the report before any frame is simulated; nothing: no cloth meets itself or another.
+/// Returns the report before any frame is simulated; nothing: no cloth can touch itself or another.
 std::optional<SelfContactReport> starting_report(const SimulationModel& model);
 
 /// Adds what the device counted in a frame.
 void note_contact(SelfContactReport& report, const SimulationModel& model, std::uint32_t frame,
                   const glsl::SelfRecord& record);
 
-/// Writes or reads what frames change of it, by a ByteWriter or a ByteReader.
+/// Writes or reads what frames change of the report, by a ByteWriter or a ByteReader.
 template <class Archive>
 void transfer_report(Archive& archive, SelfContactReport& report) {
     archive(report.first_unproved, report.most_pairs, report.truncated, report.longest_lag, report.first_lagging,

@@ -15,7 +15,7 @@ struct Device::Parts {
           device(instance, selector) {}
     vulkan::Instance instance;
     vulkan::Device device;
-    std::unique_ptr<Parts> drawing;  ///< draws the pictures, unless this device does
+    std::unique_ptr<Parts> drawing;  ///< the device that draws the pictures; null: this one does
 };
 
 }  // namespace drape

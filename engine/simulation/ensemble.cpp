@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* member_part = "member";
 
-/// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false for what is of none.
+/// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false if that is
+/// impossible.
 template <class Archive>
 bool transfer(Archive& archive, MemberProgress& member, MemberMotion& motion) {
     archive(member.frame, member.pins_acted, member.colliders_acted, member.judged);
@@ -92,7 +93,7 @@ struct Ensemble::Parts {
     Members members;
     std::optional<std::string> obstacle;
     std::unique_ptr<MemberFrames> frames;
-    /// Those of the members that were drawn last. Each has the images of a picture.
+    /// Pictures of the members that were drawn last, each with its images.
     std::map<std::size_t, std::unique_ptr<Pictures>> pictures;
     std::vector<std::uint8_t> picture;
 };
@@ -126,7 +127,8 @@ void Ensemble::step(const EnsembleActions& actions) {
     Members& members = parts_->members;
     check_actions(actions, parts_->options.controls, members.front()->model, members.size());
     for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
-    // The statistics of the frame before are there, and what moves cloths until this one's end is known.
+    // Meanwhile the host judges the previous frame's statistics; what moves the cloths until the end of this frame is
+    // known.
     parts_->frames->step([&] {
         for (const auto& member : members) {
             member->judge();
@@ -159,7 +161,7 @@ SimulationState Ensemble::save(std::size_t number) const {
     SimulationState state = parts_->frames->save(number);
     ByteWriter writer;
     MemberMotion motion(member.model);
-    transfer(writer, member, motion);  // a writer changes nothing
+    transfer(writer, member, motion);  // when writing, transfer changes nothing
     state[member_part] = writer.take();
     return state;
 }
@@ -195,7 +197,7 @@ std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {
     constexpr std::size_t most_kept = 4;
     Member& member = *parts_->members.at(number);
     auto& all = parts_->pictures;
-    // Pictures keep the paths that a member's pins and colliders had.
+    // Pictures keep the paths that a member's pins and colliders had when they were made.
     const EnsembleControls& controls = parts_->options.controls;
     if (controls.pins || controls.colliders || (all.size() >= most_kept && !all.contains(number))) all.clear();
     std::unique_ptr<Pictures>& pictures = all[number];

@@ -11,7 +11,8 @@ namespace drape {
 
 namespace {
 
-/// Gives inputs of a member that takes no part the size that they have for so many substeps.
+/// Fills the inputs of a member that takes no part in the submit to the size that they have with this number of
+/// substeps.
 void fill(const SimulationModel& model, std::uint32_t substeps, FrameInputs& inputs) {
     inputs.wind.assign(model.windy ? substeps * (model.weighs ? 2u : 1u) : 0u, {});
     std::size_t records = 0;
@@ -65,7 +66,7 @@ std::vector<ClothStatistics> statistics_in(const SimulationModel& run, std::uint
     return all;
 }
 
-/// What the device read back of all cloths.
+/// What the device read back of all cloths, and the velocities computed from it.
 struct Arrays {
     std::vector<std::span<const float>> positions, normals, moved, excess;
 };
@@ -89,7 +90,7 @@ FrameContents contents_of(const FrameGraphs& graphs, const Job& job) {
 void FlightInputs::write(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
     if (graphs.in_part()) write_present(graphs, slot, flight);
     if (flight.work().changes_substeps()) write_changes(graphs, slot, flight);
-    // The initial frame simulates nothing, but its statistics need to know where the colliders are.
+    // The initial frame simulates nothing, but its statistics need the places of the colliders.
     if (flight.contents.simulates || flight.contents.counts)
         write_frame(graphs, slot, flight);
     else
@@ -115,8 +116,8 @@ void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Fl
         const std::size_t member = flight.members[place];
         FrameInputs& own = members_[member];
         take_frame_inputs(graphs.member_at(member, at), flight.jobs[place].work.frame, own);
-        // Members of a closed loop begin with substeps of their own: what is not simulated has the last one's
-        // colliders.
+        // Each member of a closed loop begins with a number of substeps of its own, so a frame that is not simulated
+        // takes the colliders of the last substep.
         if (!flight.contents.simulates) keep_last_set(own);
     }
     join_inputs(joint, members_, joined_);
@@ -190,7 +191,7 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
             if (options.positions) frame.positions.push_back(arrays.positions[k]);
             if (options.normals) frame.normals.push_back(arrays.normals[k]);
             if (!options.velocities) continue;
-            // The statistics take this for the velocity over the substep; it is 0 where there was none.
+            // The statistics take the motion of the last substep for the velocity; without a substep it is 0.
             velocities.emplace_back(arrays.moved[k].size());
             if (work.substeps > 0)
                 write_velocities(arrays.moved[k], arrays.excess[k], fps * work.substeps, velocities.back());

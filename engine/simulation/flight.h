@@ -1,4 +1,5 @@
-// A submit that does alike jobs of some members: what the host writes for it, and what it leaves on the host.
+// A flight is one submit, which does the same kind of job for some of the members: what the host writes for it, and
+// what it reads back afterwards.
 #pragma once
 
 #include <span>
@@ -12,19 +13,19 @@ namespace drape {
 struct Flight {
     FrameContents contents;
     std::vector<std::size_t> members;
-    std::vector<Job> jobs;             ///< by place in `members`
-    std::vector<WorkResult> results;   ///< likewise, once it is settled
+    std::vector<Job> jobs;             ///< one for each entry of `members`
+    std::vector<WorkResult> results;   ///< likewise, once the flight is settled
     std::vector<FrameEffort> efforts;  ///< likewise
     bool settled = false;
-    const Work& work() const { return jobs.front().work; }  ///< the jobs are alike but for their frames
+    const Work& work() const { return jobs.front().work; }  ///< the jobs differ in their frames alone
 };
 
-/// Returns what the graph of a job does.
+/// Returns the contents of the graph that does a job.
 FrameContents contents_of(const FrameGraphs& graphs, const Job& job);
 
 class FlightInputs {
   public:
-    /// Writes what the device reads of the host in a flight.
+    /// Writes the data of the host that the device reads in a flight.
     void write(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight);
 
   private:
@@ -34,10 +35,11 @@ class FlightInputs {
     FrameInputs joined_;
 };
 
-/// Returns by place what a flight that is done has told.
+/// Returns the results of a flight that the device has finished, one for each entry of `members`.
 std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight);
 
-/// Calls `take(place, frame)` with the frame of each job, handed out or not; it is valid during the call.
+/// Calls `take(place, frame)` with the frame of each job, whether the job hands it out or not; `frame` is valid during
+/// the call.
 void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
               const std::function<void(std::size_t place, const FinishedFrame& frame)>& take);
 

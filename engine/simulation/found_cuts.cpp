@@ -11,7 +11,7 @@ namespace drape {
 
 namespace {
 
-/// What was found of a cloth.
+/// What a search found of one cloth.
 struct Hit {
     std::size_t cloth;
     CutFindings cut;
@@ -19,7 +19,7 @@ struct Hit {
     CutImages before;
 };
 
-/// Fetches what was found, before any resource changes.
+/// Fetches what the search found, before any resource changes.
 std::vector<Hit> found_hits(FrameGraphs& graphs, std::uint32_t slot, std::uint32_t frame) {
     const SimulationModel& model = graphs.joint();
     const graph::ResourcePool& pool = graphs.pool();

@@ -1,4 +1,4 @@
-// What a search for cuts and tears found at the end of a frame acts from the next one on.
+// Applies the cuts and tears that a search found at the end of a frame. They take effect in the next frame.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@ struct CutEvent {
     std::size_t cloth;
     CutCounts counts;
 };
-/// Is told each cut, with the cloth's topology after it.
+/// Receives each cut, with the cloth's topology after it.
 using CutListener = std::function<void(const CutEvent&, const CutTopology&)>;
 
-/// Takes what the slot's last search found into the topologies, and gives the device what follows from it. Nothing may
-/// be in flight, and what the slot handed out is gone. Returns whether a cloth tore.
+/// Adds what the slot's last search found to the topologies, and uploads what changes on the device. No submit may be
+/// in flight; the slot's frame, if it was handed out, becomes invalid. Returns whether a cloth tore.
 bool take_cuts(FrameGraphs& graphs, std::uint32_t slot, std::uint32_t frame, const CutListener& listener);
 
 }  // namespace drape

@@ -55,7 +55,8 @@ std::optional<FrameFailure> nonsense(const SimulationModel& model, Watch& watch,
 std::optional<FrameFailure> missed_tolerance(const SimulationModel& model, std::uint32_t frame,
                                              const Statistics& cloths) {
     const SolverSettings& solver = model.scene.solver;
-    if (!(model.asked_tolerance > 0) || model.closed_loop()) return std::nullopt;  // a closed loop judges by more
+    if (!(model.asked_tolerance > 0) || model.closed_loop())
+        return std::nullopt;  // a closed loop judges its frames itself
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
         const double error = cloths[cloth].stretch_error_rms;
         if (error <= model.asked_tolerance) continue;

@@ -10,11 +10,11 @@
 
 namespace drape {
 
-/// Returns the first of: a particle that is not finite, something not plausible (control/watch.h), a cloth whose RMS
-/// stretch error is above the scene's tolerance. There is none without statistics.
+/// Returns the first failure among: a particle that is not finite, a value that is not plausible (control/watch.h), a
+/// cloth whose RMS stretch error is above the scene's tolerance. Without statistics there is none.
 std::optional<FrameFailure> frame_failure(const SimulationModel& model, Watch& watch, const FinishedFrame& frame);
 
-/// Throws it as Diverged or ToleranceMissed.
+/// Throws the failure, as Diverged or ToleranceMissed.
 [[noreturn]] void raise(const FrameFailure& failure);
 
 }  // namespace drape

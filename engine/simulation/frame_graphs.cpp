@@ -54,19 +54,19 @@ const SimulationModel& FrameGraphs::member_at(std::size_t number, std::uint32_t 
 }
 
 FrameContents FrameGraphs::contents(bool simulates, bool hands_out, bool first) const {
-    // A closed loop judges what it simulates, and hands that out.
+    // A closed loop judges every frame that it simulates, and hands out the same statistics.
     const bool wanted = joint_->closed_loop() && !first
                             ? simulates
                             : (hands_out && options_.statistics) || (simulates && options_.judges);
     return {.simulates = simulates, .hands_out = hands_out, .counts = wanted};
 }
 
-/// Returns the contents whose resources are those of all that this scene and these options ever need.
+/// Returns the contents of graphs whose resources are all that this scene and these options ever need.
 std::vector<FrameContents> FrameGraphs::known_contents() const {
     const SceneDescription& scene = joint_->scene;
     const bool closed = joint_->closed_loop(), cuts = !scene.cutters.empty();
     std::vector<FrameContents> all{contents(false, true, true), contents(true, false)};
-    if (!in_part()) all.push_back(contents(true, true));  // a closed loop only describes it
+    if (!in_part()) all.push_back(contents(true, true));  // under a closed loop this graph serves as a description only
     if (closed) all.push_back(contents(false, true));
     if (scene.comes_apart())
         for (FrameContents searched : std::vector(all)) {
@@ -76,7 +76,7 @@ std::vector<FrameContents> FrameGraphs::known_contents() const {
         }
     for (const StateSet set : {StateSet::companion, StateSet::disturbed})
         if (has_set(*joint_, set)) all.push_back({.set = set, .simulates = true});
-    // What is submitted has the constants of a model that was made for its substeps.
+    // Graphs that are submitted have the constants of a model made for their number of substeps.
     if (in_part())
         for (FrameContents& contents : all)
             if (contents.simulates) contents.substeps = scene.solver.substeps;
@@ -129,7 +129,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
     return planned;
 }
 
-/// Adds what makes pictures and arrays of the state.
+/// Adds the passes that make pictures and arrays of the state.
 void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (options_.draw || options_.normals) solver_.add_normals(graph);
     if (options_.draw) raster_->add(graph, raster_cloths(*joint_, solver_.cloths()));

@@ -1,6 +1,6 @@
-// The graphs of what a device does for a run, or for the runs of several members together: frames by their contents,
-// and steps of the state. They are planned when the resources are allocated, or when they are first asked for, and
-// recorded when they are first submitted.
+// The graphs of the work that a device does for a run, or for the runs of several members together: frames, by their
+// contents, and steps of the state. A graph is planned when the resources are allocated, or when it is first asked for,
+// and recorded when it is first submitted.
 #pragma once
 
 #include <compare>
@@ -18,26 +18,26 @@
 namespace drape {
 
 struct FrameOptions : PictureOptions {
-    bool draw = true;           ///< colour images are wanted
-    bool draws_beside = false;  ///< they are, but another device makes them (pictures.h)
-    bool velocities = false;    ///< arrays of velocities are wanted; needs statistics
-    bool arrays_later = false;  ///< they are taken, or computed, of what was read back by whoever wants them
-    bool normals = false;       ///< arrays of normals are wanted
-    bool statistics = false;    ///< statistics of every frame handed out are wanted
-    bool judges = false;        ///< and of every frame that is simulated
+    bool draw = true;           ///< draw colour images
+    bool draws_beside = false;  ///< they are drawn by another device (pictures.h)
+    bool velocities = false;    ///< hand out arrays of velocities, which needs statistics
+    bool arrays_later = false;  ///< the receiver takes or computes arrays from what was read back
+    bool normals = false;       ///< hand out arrays of normals
+    bool statistics = false;    ///< compute statistics of every frame that is handed out
+    bool judges = false;        ///< compute statistics of every frame that is simulated
     Kernels kernels = Kernels::automatic();
-    std::function<void()> meanwhile;      ///< called whenever the device has got a frame to simulate
-    graph::BarrierFilter barrier_filter;  ///< canary tests only
+    std::function<void()> meanwhile;      ///< called whenever a frame has been submitted to the device
+    graph::BarrierFilter barrier_filter;  ///< for canary tests only
 };
 
-/// What one graph does, in this order.
+/// What one graph does, in the order of these members.
 struct FrameContents {
     StateSet set = StateSet::run;
     bool simulates = false;
     std::uint32_t substeps = 0;        ///< 0: those of the scene
-    bool cuts = false, tears = false;  ///< they are searched for
+    bool cuts = false, tears = false;  ///< search for these
     bool hands_out = false;
-    bool counts = false;  ///< the statistics
+    bool counts = false;  ///< compute the statistics
     auto operator<=>(const FrameContents&) const = default;
     bool nothing() const { return !simulates && !cuts && !tears && !hands_out && !counts; }
 };
@@ -50,38 +50,40 @@ struct PlannedGraph {
 
 class FrameGraphs {
   public:
-    /// `members`: one model, or several of one shape (cloth/members.h); they must outlive it. Throws VulkanError where
-    /// the device has not what a kernel needs.
+    /// `members`: one model, or several of one shape (cloth/members.h); they must outlive this object. Throws
+    /// VulkanError where the device lacks what a kernel needs.
     FrameGraphs(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
                 const FrameOptions& options);
 
     const FrameOptions& options() const { return options_; }
-    /// Returns the model of all members, and one's.
+    /// `joint` returns the model of all members together, `member` that of one.
     const SimulationModel& joint() const { return *joint_; }
     const SimulationModel& member(std::size_t number) const { return *members_[number]; }
-    /// Returns them at so many substeps; 0: those of the scene.
+    /// These return the same models with this number of substeps; 0: the scene's number.
     const SimulationModel& joint_at(std::uint32_t substeps);
     const SimulationModel& member_at(std::size_t number, std::uint32_t substeps);
     std::size_t member_count() const { return members_.size(); }
     std::size_t cloths_each() const { return members_.front()->cloths.size(); }
-    /// Returns whether work is done for some members and not for others.
+    /// Returns whether a submit may do work for some members and not for others.
     bool in_part() const { return members_.size() > 1 && joint_->closed_loop(); }
 
-    /// Returns the graph of a frame whose statistics are wanted as the options say. `first`: it is frame 0.
+    /// Returns the contents of a frame, with statistics as the options ask for. `first`: it is frame 0.
     FrameContents contents(bool simulates, bool hands_out, bool first = false) const;
-    /// Returns the bytes on the device of all that is known to be needed.
+    /// Returns the bytes on the device of all graphs that are known to be needed.
     std::uint64_t bytes();
-    /// Allocates it, and fills it with the start. Throws VulkanError where it is over budget, before it allocates.
+    /// Allocates the resources, and fills them with the start. Throws VulkanError before allocating if they exceed the
+    /// budget.
     void allocate();
-    /// Gives the resources the sizes that they now are to have, and goes on with this state. Nothing may be in flight.
+    /// Reallocates the resources at the sizes that they need now, and goes on from this state. No submit may be in
+    /// flight.
     void rebuild(const SimulationState& state);
-    /// Draws what cuts have left: the recording says how much.
+    /// Records the drawing again after a cut, since the recording contains how much is drawn.
     void draw_anew();
 
     const PlannedGraph& planned(const FrameContents& contents);
     VkCommandBuffer commands(const FrameContents& contents, std::uint32_t slot);
     VkCommandBuffer commands(StateStep step, StateSet set, std::uint32_t slot);
-    /// Returns the device's times of the slot's last submit of a frame.
+    /// Returns the times that the device measured in the slot's last submit of a frame.
     std::vector<StageTime> timings(const FrameContents& contents, std::uint32_t slot) const;
 
     ClothSolver& solver() { return solver_; }
@@ -90,7 +92,7 @@ class FrameGraphs {
     const graph::ResourcePool& pool() const { return *pool_; }
 
   private:
-    /// The members' models at a number of substeps.
+    /// The members' models with one number of substeps.
     struct ModelsAt {
         std::vector<std::unique_ptr<SimulationModel>> own;
         std::unique_ptr<SimulationModel> joint;  ///< null where there is one member
@@ -116,11 +118,11 @@ class FrameGraphs {
     std::map<std::uint32_t, ModelsAt> models_;
     std::map<FrameContents, PlannedGraph> frames_;
     std::map<SetStep, PlannedGraph> steps_;
-    bool planned_all_ = false;  ///< what is known to be needed is planned
+    bool planned_all_ = false;  ///< all graphs known to be needed are planned
     std::unique_ptr<graph::ResourcePool> pool_;
 };
 
-/// Throws VulkanError, telling how many fit, where `count` members like these have no room on the device together.
+/// Throws VulkanError, which says how many fit, where the device has no room for `count` members like these together.
 void check_room(const vulkan::Device& device, FrameGraphs& graphs, std::size_t count);
 
 }  // namespace drape

@@ -56,7 +56,7 @@ void FrameServer::guarded(std::size_t member, const Act& act) {
     if (failures_[member]) return;
     try {
         act();
-    } catch (const vulkan::VulkanError&) {  // the device's failures are everybody's
+    } catch (const vulkan::VulkanError&) {  // a failure of the device concerns every member
         throw;
     } catch (...) {
         failures_[member] = std::current_exception();
@@ -69,7 +69,7 @@ void FrameServer::take_jobs() {
             guarded(member, [&] { waiting_[member] = runs_[member]->next_job(); });
 }
 
-/// Returns those that wait for the same as most do.
+/// Returns the flight with the most members that wait for the same kind of job.
 Flight FrameServer::largest_flight() {
     using Alike = std::tuple<FrameContents, std::optional<StateStep>, std::optional<StateStep>, bool, std::uint32_t>;
     std::map<Alike, std::vector<std::size_t>> groups;
@@ -91,7 +91,7 @@ Flight FrameServer::largest_flight() {
 
 void FrameServer::serve() {
     for (;;) {
-        // Of several members all are to be asked before it is chosen who goes together.
+        // With several members, all are asked for jobs before those that share a submit are chosen.
         if (!is_single() && flights_[0]) {
             deliver(0);
             continue;
@@ -110,7 +110,7 @@ void FrameServer::serve() {
     for (std::size_t member = 0; member < runs_.size(); ++member) guarded(member, [&] { runs_[member]->conclude(); });
 }
 
-/// Hands out the frame before while a frame is simulated, and waits for that.
+/// Hands out the previous frame while the device simulates one, then waits for the latter.
 void FrameServer::serve_one() {
     const std::uint32_t older = next_slot_, newer = (next_slot_ + 1) % vulkan::frame_slot_count;
     if (flights_[older]) return deliver(older);
@@ -134,8 +134,8 @@ void FrameServer::submit(std::uint32_t slot, Flight flight) {
     if (flights_[slot]->contents.simulates && graphs_.options().meanwhile) graphs_.options().meanwhile();
 }
 
-/// Returns whether lists of contact were too short and are longer now; the work was begun again, or is asked for again
-/// by a pilot that goes back to an earlier frame.
+/// Returns whether lists of contact were too short and have been made longer. The work was begun again, or a pilot that
+/// goes back to an earlier frame asks for it again.
 bool FrameServer::lengthened_lists(std::uint32_t slot) {
     Flight& flight = *flights_[slot];
     ClothSolver& solver = graphs_.solver();
@@ -176,7 +176,7 @@ void FrameServer::settle(std::uint32_t slot) {
 void FrameServer::deliver(std::uint32_t slot) {
     if (!flights_[slot]) return;
     if (!flights_[slot]->settled) settle(slot);
-    if (!flights_[slot]) return;  // it is asked for again
+    if (!flights_[slot]) return;  // the pilot asks for this work again
     const Flight flight = std::move(*flights_[slot]);
     flights_[slot].reset();
     hand_out(graphs_, slot, flight, [&](std::size_t place, const FinishedFrame& frame) {
@@ -184,7 +184,7 @@ void FrameServer::deliver(std::uint32_t slot) {
         guarded(member, [&] { runs_[member]->deliver(flight.jobs[place], frame); });
     });
     if (!flight.jobs.front().searches) return;
-    // A cut acts from the next frame on, always: so that frame waits for this one's findings.
+    // A cut always takes effect in the next frame, which therefore waits for the findings of this one.
     MemberRun& run = *runs_.front();
     if (take_cuts(graphs_, slot, flight.work().frame, run.listener().on_cut)) run.pilot().wake();
 }

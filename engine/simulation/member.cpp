@@ -44,11 +44,11 @@ std::size_t pin_count(const SimulationModel& model) {
     return count;
 }
 
-/// Changes a path so that it goes to a key between two times (s) at constant speed, from where it is then.
+/// Changes a path so that from `from` to `to` (s) it moves to a key at constant speed, from wherever it is at `from`.
 void go(MotionPath& path, double from, double to, std::span<const double> target) {
     const MotionKey now = key_at(path, from);
     const MotionKey end{to, {target[0], target[1], target[2]}, {target[3], target[4], target[5]}};
-    // Keys beyond both ends make the cubic between them a line (world/motion.h).
+    // Keys beyond both ends make the cubic between the two times a straight line (world/motion.h).
     const auto beyond = [&](double at, double share) {
         MotionKey key{at, {}, {}};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,7 @@ void MemberMotion::put_into(SimulationModel& model) const {
     auto pin = pins.begin();
     for (std::size_t k = 0; k < model.cloths.size(); ++k)
         for (DynamicPin& each : model.cloths[k].dynamic_pins)
-            model.scene.cloths[k].pins[each.number].path = each.path = *pin++;  // the scene's are drawn
+            model.scene.cloths[k].pins[each.number].path = each.path = *pin++;  // pictures draw the scene's paths
     for (std::size_t k = 0; k < colliders.size(); ++k) {
         model.scene.colliders[k].path = colliders[k];
         for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = colliders[k];
@@ -139,7 +139,7 @@ void act(const EnsembleActions& actions, std::size_t number, Member& member) {
         if (!numbers.empty())
             go(path, from, to, numbers.subspan(numbers_of_key * first, numbers_of_key));
         else if (acted)
-            path.keys = {key_at(path, from)};  // it stays where the last action put it
+            path.keys = {key_at(path, from)};  // the collider stays where the last action put it
     };
     std::size_t pin = number * pin_count(model);
     for (std::size_t k = 0; k < model.cloths.size(); ++k) {

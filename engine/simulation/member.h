@@ -1,4 +1,4 @@
-// A member of an ensemble: its scene's model, which actions change, and its last frame.
+// A member of an ensemble: the model of its scene, which actions change, and its last frame.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace drape {
 
-/// The numbers of a model that actions change.
+/// The numbers of a model that actions can change.
 struct MemberMotion {
     explicit MemberMotion(const SimulationModel& model);
     void put_into(SimulationModel& model) const;
 
-    /// Writes or reads it, by a ByteWriter or a ByteReader.
+    /// Writes or reads them, by a ByteWriter or a ByteReader.
     template <class Archive>
     void transfer(Archive& archive) {
         archive(wind.velocity[0], wind.velocity[1], wind.velocity[2], wind.gust.amplitude);
@@ -39,24 +39,24 @@ struct MemberMotion {
 
     static constexpr std::uint64_t most_keys = 1'000'000;
     Wind wind;
-    std::vector<MotionPath> pins;       ///< of all cloths, those that can move
+    std::vector<MotionPath> pins;       ///< of those pins of all cloths that can move
     std::vector<MotionPath> colliders;  ///< sorted by kind
 };
 
-/// How far a member is, as the host knows it.
+/// What the host knows of a member's progress.
 struct MemberProgress {
     std::uint32_t frame = 0;
     std::optional<FrameFailure> failure;
-    bool judged = false;  ///< the statistics of the frame were looked at
+    bool judged = false;  ///< the statistics of the frame were judged
     std::vector<ClothStatistics> statistics;
     FrameEffort effort;
     std::optional<SelfContactReport> self_contact;
-    bool pins_acted = false, colliders_acted = false;  ///< actions have moved them
+    bool pins_acted = false, colliders_acted = false;  ///< actions have moved these
     std::unique_ptr<Watch> watch;                      ///< of the member's model
 };
 
 struct Member : MemberProgress {
-    /// `controls`: these are made able to move.
+    /// `controls`: the pins and colliders that actions can move.
     Member(const SceneDescription& scene, const EnsembleControls& controls, const ModelOptions& options);
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
@@ -64,16 +64,16 @@ struct Member : MemberProgress {
     SimulationModel model;
     MemberMotion start;  ///< before any action
 
-    /// Makes it what it was before frame 0.
+    /// Resets the member to what it was before frame 0.
     void begin_anew();
-    /// Looks at the statistics of the frame that it is at, once.
+    /// Judges the statistics of the member's current frame, once.
     void judge();
 };
 
-/// Throws ActionError where an ensemble's members cannot take these actions.
+/// Throws ActionError where an ensemble's members cannot follow these actions.
 void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
                    std::size_t member_count);
-/// Makes the model of a member do its part of the actions in its next frame.
+/// Applies a member's part of the actions to its model, for the next frame.
 void act(const EnsembleActions& actions, std::size_t number, Member& member);
 
 }  // namespace drape

@@ -31,7 +31,7 @@ FrameOptions frame_options(const SimulationModel& model, const MemberFrameOption
     return options;
 }
 
-/// Returns the readback of a cloth among all of a server's, in its only slot.
+/// Returns what was read back of one cloth among all of a server's, in its only slot.
 std::span<const float> read_back(const FrameServer& server, std::size_t cloth, std::string_view what) {
     return server.graphs().solver().readback(server.graphs().pool(), 0, what)[cloth];
 }
@@ -48,7 +48,7 @@ std::vector<const SimulationModel*> models_of(const Members& members, const std:
     return models;
 }
 
-/// Returns whether all cloths of members of a closed loop can be taken together.
+/// Returns whether one device can simulate all cloths of these members of a closed loop together.
 bool fit_together(const vulkan::Device& device, const std::vector<const SimulationModel*>& models,
                   const Kernels& kernels) {
     const SimulationModel all(models);
@@ -128,7 +128,7 @@ void MemberFrames::check_room(const vulkan::Device& device, const Members& two, 
     drape::check_room(device, graphs, count);
 }
 
-/// Members that failed begin each frame as they start: what is not finite would meet itself everywhere.
+/// Members that failed begin each frame from their start: values that are not finite would spread through shared work.
 void MemberFrames::begin_still_failed(const Group& group) {
     if (group.server->size() == 1 || !group.server->graphs().joint().self_contact) return;
     std::vector<std::size_t> places;
@@ -142,7 +142,7 @@ void MemberFrames::begin_still_failed(const Group& group) {
 
 void MemberFrames::step(const std::function<void()>& meanwhile) {
     for (const Group& group : groups_) begin_still_failed(group);
-    // Results of several groups come one after the other, so there nothing may be looked at while the device works.
+    // Groups are simulated one after the other, so with several groups nothing may be read while the device works.
     if (groups_.size() == 1 && !groups_.front().server->graphs().joint().closed_loop())
         meanwhile_ = meanwhile;
     else
@@ -172,7 +172,7 @@ void MemberFrames::simulate(const std::vector<std::size_t>& numbers) {
     for (const Group& group : groups_) {
         try {
             group.server->serve();
-        } catch (const FrameError& error) {  // a single one throws its own
+        } catch (const FrameError& error) {  // a single member throws its own exception
             gave_up(group.numbers.front(), error);
         }
     }
@@ -225,7 +225,7 @@ void MemberFrames::reset(std::span<const std::size_t> numbers) {
     simulate(simulated);
 }
 
-/// Shows a lasting member's start without a pass over all members.
+/// Shows the start of a member of a `lasting` group without simulating all members.
 void MemberFrames::put_back(std::size_t number) {
     FrameServer& server = server_of(number);
     const Seat seat = seats_[number];
@@ -313,7 +313,7 @@ MemberArray MemberFrames::array(std::size_t cloth, MemberValue value) const {
         array.data = gathered.data();
         return array;
     }
-    // Such members are one group. Their positions may lie evenly in what the device left.
+    // Members that share dispatches are one group. In what the device left, their positions may be evenly spaced.
     const FrameGraphs& graphs = first.server->graphs();
     const std::size_t each = graphs.cloths_each();
     const auto read = [&](std::string_view what) { return graphs.solver().readback(graphs.pool(), 0, what); };

@@ -1,5 +1,5 @@
-// The frames of an ensemble's members: served together by one device where they share dispatches, else each by a server
-// of its own.
+// The frames of an ensemble's members. One server simulates members that share dispatches together; each other member
+// has a server of its own.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace drape {
 
-/// The arrays that members hand out.
+/// The kinds of array that members hand out.
 enum class MemberValue : std::uint8_t { position, velocity, normal };
 inline constexpr std::size_t member_value_count = 3;
 
@@ -27,43 +27,43 @@ struct MemberFrameOptions {
 
 class MemberFrames {
   public:
-    /// `share`: members share dispatches, those of one method with each other. Frame 0 of all is there then. Throws
-    /// DeviceError, telling how many fit, before anything is allocated for members that share dispatches.
+    /// `share`: members share dispatches with the members of the same method. Simulates frame 0 of all members. Throws
+    /// DeviceError, which says how many fit, before anything is allocated for members that share dispatches.
     MemberFrames(const vulkan::Device& device, Members& members, const MemberFrameOptions& options, bool share);
     MemberFrames(const MemberFrames&) = delete;
     MemberFrames& operator=(const MemberFrames&) = delete;
 
-    /// Throws DeviceError, telling how many fit, where so many members as these two are, which share dispatches, have
-    /// no room on the device.
+    /// Throws DeviceError, which says how many fit, where the device has no room for `count` members like these two
+    /// that share dispatches.
     static void check_room(const vulkan::Device& device, const Members& two, std::size_t count,
                            const MemberFrameOptions& options);
 
-    /// Simulates the frame after the one that each member is at, by its model as it is now, and takes its statistics.
-    /// `meanwhile` is called once, while the device works where it can be.
+    /// Simulates each member's next frame by its model as it is now, and takes the statistics. `meanwhile` is called
+    /// once, while the device works where that is possible.
     void step(const std::function<void()>& meanwhile);
-    /// Takes members, which are as they begin again, to their starts, and their statistics there.
+    /// Returns members, whose host side has been reset, to their starts, with the statistics of frame 0.
     void reset(std::span<const std::size_t> numbers);
-    /// Returns what the member's next frame depends on, beside its model.
+    /// Returns what the member's next frame depends on, except for its model.
     SimulationState save(std::size_t number) const;
-    /// Takes members to saved states, as far as they are the device's. Throws Error where one is not of such a member;
-    /// those that share dispatches are then as they were.
+    /// Restores the device's part of members' saved states. Throws Error where a state does not fit its member; members
+    /// that share dispatches are then unchanged.
     void restore(std::span<const std::size_t> numbers, std::span<const SimulationState> states);
     MemberArray array(std::size_t cloth, MemberValue value) const;
-    /// Brings what arrays show that were handed out up to date, after members went on or were taken elsewhere.
+    /// Updates the arrays that were handed out, after members went on or were restored.
     void refresh() const;
     std::size_t pass_count() const;
     double device_milliseconds() const;
 
   private:
     struct Group {
-        std::vector<std::size_t> numbers;  ///< of members, by their places in the server
+        std::vector<std::size_t> numbers;  ///< of the members, in the order of the server
         std::unique_ptr<FrameServer> server;
-        bool lasting;  ///< arrays lie where the device left them until the next step
+        bool lasting;  ///< arrays stay where the device left them until the next step
     };
     struct Seat {
         std::size_t group, place;
     };
-    /// Each has an array for each cloth.
+    /// For each kind, an array for each cloth.
     using Arrays = std::array<std::vector<std::vector<float>>, member_value_count>;
     using Place = std::pair<std::size_t, MemberValue>;
 
@@ -71,11 +71,11 @@ class MemberFrames {
     void make_group(const vulkan::Device& device, const std::vector<std::size_t>& numbers);
     FrameServer& server_of(std::size_t number) const { return *groups_[seats_[number].group].server; }
     bool lasts(std::size_t number) const { return groups_[seats_[number].group].lasting; }
-    /// Brings members to the frames that they are to be at.
+    /// Simulates these members up to the frames that they are to be at.
     void simulate(const std::vector<std::size_t>& numbers);
     void keep(std::size_t number, const FinishedFrame& finished);
     void put_back(std::size_t number);
-    /// Shows what a lasting member's state is, in the arrays that the device left.
+    /// Writes a member's state into the arrays that the device left, where these are the ones handed out.
     void show(std::size_t number, const SimulationState& state);
     std::span<const float> view(std::size_t number, std::size_t cloth, MemberValue value) const;
     void begin_still_failed(const Group& group);
@@ -83,13 +83,14 @@ class MemberFrames {
     Members& members_;
     MemberFrameOptions options_;
     std::vector<Group> groups_;
-    std::vector<Seat> seats_;                                     ///< by member
-    std::vector<Arrays> arrays_;                                  ///< by member; empty where they last
-    std::vector<SimulationState> starts_;                         ///< by member; those of members alone
+    std::vector<Seat> seats_;              ///< by member
+    std::vector<Arrays> arrays_;           ///< by member; empty in a group that is `lasting`
+    std::vector<SimulationState> starts_;  ///< by member; only of members with a server of their own
     std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
-    std::vector<char> over_;                                      ///< by member: it gave up, and stays where it was
+    std::vector<char> over_;  ///< by member: it failed for good, and stays where it was
     std::function<void()> meanwhile_;
-    mutable std::map<Place, std::vector<float>> gathered_;  ///< arrays of all members that do not lie evenly
+    mutable std::map<Place, std::vector<float>>
+        gathered_;  ///< arrays of all members, copied where the device's are not evenly spaced
 };
 
 }  // namespace drape

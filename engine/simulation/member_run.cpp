@@ -18,7 +18,7 @@ void MemberRun::ask(const FrameRequest& request) {
 }
 
 bool MemberRun::can_save() const {
-    // A closed loop that is stopped within frames forgets them. Frame 0 is there before any is simulated.
+    // A closed loop that is stopped within a segment forgets its frames. Frame 0 exists before any frame is simulated.
     return begun_ || (withheld_.empty() && std::max(next_frame_, 1u) >= pilot_->simulated());
 }
 
@@ -57,7 +57,7 @@ std::optional<Job> MemberRun::next_job() {
             return std::nullopt;
         }
         const bool is_start = next_frame_ == 0;
-        // The initial state is already there.
+        // The initial state already exists, so frame 0 needs no job that nobody wants.
         if (is_start && !request_.wanted(0) && !searched(0) && !listener_.on_passed_over) {
             ++next_frame_;
             continue;
@@ -87,12 +87,12 @@ std::optional<Job> MemberRun::first_job() {
     return job;
 }
 
-/// Returns the device's part of some work; nothing: it has none.
+/// Returns the job for a piece of work; nothing: the work needs no device.
 std::optional<Job> MemberRun::job_of(Work work) {
     Job job{.work = std::move(work)};
     Work& own = job.work;
     const bool is_known = own.known.has_value();
-    // Frames behind the last that is asked for may be wanted then. Of what is asleep the last search holds.
+    // Frames after the last requested one may be requested later. For a sleeping frame the last search is still valid.
     if (own.hands_out) {
         job.wanted = (is_known && own.frame > request_.last) || request_.wanted(own.frame);
         job.searches = !(is_known && own.known->effort.asleep) && searched(own.frame);
@@ -136,12 +136,12 @@ void MemberRun::deliver(const Job& job, const FinishedFrame& frame) {
         return;
     }
     if (job.wanted) return give(frame);
-    // A frame of a closed loop is told of when it is kept.
+    // A frame of a closed loop is reported when it is kept.
     const bool is_told = work.frame == 0 || (work.simulates && work.set == StateSet::run && work.attempt == 0);
     if (is_told && listener_.on_passed_over) listener_.on_passed_over(frame);
 }
 
-/// The frames that were begun are done.
+/// Ends the frames that the pilot had begun, all of which are done.
 void MemberRun::end_frames() {
     begun_ = false;
     if (const KeptFrames* const kept = pilot_->kept()) {
@@ -149,7 +149,7 @@ void MemberRun::end_frames() {
         for (std::uint32_t frame = kept->first; frame < end; ++frame) {
             const std::size_t k = frame - kept->first;
             if (k < kept->contacts.size()) note_contact(frame, kept->contacts[k], kept->list_use);
-            // Frames behind the last that is asked for are withheld.
+            // Frames after the last requested one are withheld.
             if (frame <= request_.last && !request_.wanted(frame)) pass_over(frame, kept->statistics[k], kept->effort);
         }
         for (FrameCopy& copy : withheld_) copy.effort() = kept->effort;
@@ -158,7 +158,7 @@ void MemberRun::end_frames() {
     ++next_frame_;
 }
 
-/// Adds a frame's record to the report.
+/// Adds a frame's contact record to the report.
 void MemberRun::note_contact(std::uint32_t frame, const glsl::SelfRecord& record, double list_use) {
     if (!self_contact_) return;
     if (list_use > 1)
@@ -175,7 +175,7 @@ void MemberRun::give(const FinishedFrame& frame) {
     request_.finished(frame);
 }
 
-/// Hands out the next frame, which was simulated before.
+/// Hands out the next of the frames that were simulated earlier.
 void MemberRun::release_withheld() {
     const std::uint32_t frame = next_frame_++;
     if (!withheld_.empty() && withheld_.front().frame().frame == frame) {
@@ -215,12 +215,12 @@ void MemberRun::write(ByteWriter& writer) const {
 }
 
 void MemberRun::read(ByteReader& reader) {
-    withheld_.clear();  // a probe's, of the motion that is left
+    withheld_.clear();  // they belong to a probe whose motion is abandoned
     passed_over_.clear();
     reader(next_frame_);
     if (self_contact_) transfer_report(reader, *self_contact_);
     pilot_->read(reader);
-    // A run may go on beyond its scene's frames, but not beyond any scene's.
+    // A run may go beyond its scene's frames, but not beyond the frames that any scene can have.
     const std::uint32_t most = std::max(scene_frame_limit, model_.scene.time.frame_count);
     if (std::max(next_frame_, pilot_->simulated()) > most || reader.left() > 0 || !can_save())
         throw Error("its part 'loop' is of something else");

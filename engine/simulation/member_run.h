@@ -1,4 +1,4 @@
-// A member's run: asks its pilot (control/pilot.h) what to do for the frames that somebody wants, and hands them out in
+// A member's run: asks its pilot (control/pilot.h) what to do for the frames that were requested, and hands them out in
 // order. It knows no device: the frame server does its jobs.
 #pragma once
 
@@ -15,56 +15,58 @@
 
 namespace drape {
 
-/// Somebody listens to a member's run.
+/// The callbacks of somebody who listens to a member's run.
 struct RunListener {
-    bool keep_promises = true;  ///< ToleranceMissed is thrown where a closed loop gives up
+    bool keep_promises = true;  ///< a closed loop that gives up throws ToleranceMissed
     CutListener on_cut = {};
-    std::function<void(const FrameAttempt&)> on_attempt = {};  ///< is told of before each
-    /// Is told each frame that is not wanted, in order with those that are: its statistics and effort, nothing else.
+    std::function<void(const FrameAttempt&)> on_attempt = {};  ///< called before each attempt
+    /// Receives the statistics and effort, nothing else, of each frame that was not requested, in order with the
+    /// others.
     std::function<void(const FinishedFrame&)> on_passed_over = {};
 };
 
 /// Work for the device.
 struct Job {
     Work work;
-    bool wanted = false;    ///< its frame is handed to the one who asked
+    bool wanted = false;    ///< the frame is handed to whoever requested it
     bool searches = false;  ///< its frame ends with a search for cuts or tears
-    /// The member asks for nothing more until then.
+    /// The member asks for no other job until this one has come so far.
     enum class Until : std::uint8_t { submitted, settled, delivered } until = Until::submitted;
 };
 
 class MemberRun {
   public:
-    /// `model` must outlive it.
+    /// `model` must outlive the run.
     MemberRun(const SimulationModel& model, const RunListener& listener);
 
-    /// Begins with the frames of a request, from `next_frame` on.
+    /// Begins a request, with the frames from `next_frame` on.
     void ask(const FrameRequest& request);
-    /// Returns the next job; nothing: it waits for one, or there is none.
+    /// Returns the next job; nothing: the run waits for another job, or has none.
     std::optional<Job> next_job();
-    /// Begins the pilot's attempt anew, which asked for this job: the state is at its start again.
+    /// Begins the pilot's attempt that asked for this job again; the caller has restored the state at its start.
     void attempt_anew(const Job& job);
-    /// Learns what came of a job, before its frame is delivered. Throws VulkanError where a list of pairs had no room.
+    /// Learns from the result of a job, before its frame is delivered. Throws VulkanError where a list of pairs
+    /// overflowed.
     FrameEffort settle(const Job& job, const WorkResult& result);
     /// Hands out a job's frame.
     void deliver(const Job& job, const FinishedFrame& frame);
-    /// Ends the request, once nothing of it is in flight: tells of the frames that were passed over.
+    /// Ends the request, once none of its jobs is in flight: reports the frames that were passed over.
     void conclude();
-    /// Returns whether the frames that were asked for are done, and the request was not stopped.
+    /// Returns whether all requested frames are done, and the request was not stopped.
     bool complete() const { return complete_; }
 
     std::uint32_t next_frame() const { return next_frame_; }
-    /// Returns whether every frame that was simulated was handed out, or will have been once `stop` has ended the run.
+    /// Returns whether every simulated frame was handed out, or will have been once `stop` has ended the run.
     bool can_save() const;
-    /// The report on the frames simulated so far; nothing: no cloth meets itself or another.
+    /// The report on the frames simulated so far; nothing: no cloth can touch itself or another.
     const std::optional<SelfContactReport>& self_contact() const { return self_contact_; }
     const RunListener& listener() const { return listener_; }
     Pilot& pilot() { return *pilot_; }
 
     void write(ByteWriter& writer) const;
-    /// Throws Error where what is read is nothing that a run of this model can come to.
+    /// Throws Error where a run of this model cannot have written what is read.
     void read(ByteReader& reader);
-    /// Says that frame 0 was handed out.
+    /// Notes that frame 0 was handed out.
     void skip_start() { next_frame_ = 1; }
 
   private:
@@ -86,13 +88,13 @@ class MemberRun {
     std::optional<SelfContactReport> self_contact_;
     FrameRequest request_;
     std::uint32_t next_frame_ = 0;
-    bool begun_ = false;                     ///< the pilot is asked for the work of frames that it has begun
-    bool complete_ = true;                   ///< nothing is asked for, or all of it is done
-    bool over_ = true;                       ///< nothing more is to be asked for
-    bool forgets_ = false;                   ///< frames that are withheld and in flight were abandoned
-    int unfinished_ = 0, undelivered_ = 0;   ///< jobs that it waits for, and whose frames were not delivered
-    std::deque<FrameCopy> withheld_;         ///< frames that are simulated and not handed out yet
-    std::deque<FinishedFrame> passed_over_;  ///< frames of a closed loop that are not wanted and not told of yet
+    bool begun_ = false;                     ///< the pilot has begun frames and is asked for their work
+    bool complete_ = true;                   ///< nothing was requested, or all of it is done
+    bool over_ = true;                       ///< no more work is to be asked for
+    bool forgets_ = false;                   ///< frames that are withheld or in flight were abandoned
+    int unfinished_ = 0, undelivered_ = 0;   ///< jobs to be settled, and jobs whose frames are to be delivered
+    std::deque<FrameCopy> withheld_;         ///< frames that were simulated and not yet handed out
+    std::deque<FinishedFrame> passed_over_;  ///< frames of a closed loop that were not requested and not yet reported
 };
 
 }  // namespace drape

@@ -28,7 +28,8 @@ std::string borne_part() {
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("the saved state is not of this scene: " + why); }
 
-/// Returns per particle and direction (cloth/directions.h) the fraction of its spring where it was cut, -1: not cut.
+/// Returns, by particle and direction (cloth/directions.h), the fraction of the spring's length where it was cut; -1:
+/// it is not cut.
 std::vector<std::byte> cut_bytes(const CutTopology& topology) {
     ByteWriter writer;
     const std::size_t count = topology.cloth().grid.particle_count();
@@ -44,7 +45,8 @@ void for_each_set(const SimulationModel& model, const Visit& visit) {
         if (const auto set = static_cast<StateSet>(k); has_set(model, set)) visit(set);
 }
 
-/// Calls `visit` with the cloth's number among all and the name that its field has where the member is alone.
+/// Calls `visit` with the cloth's number among all members' cloths and with the name of its field in a scene of its
+/// own.
 template <class Visit>
 void for_each_field(const FrameGraphs& graphs, std::size_t member, StateSet set, const Visit& visit) {
     const std::size_t each = graphs.cloths_each();
@@ -86,7 +88,7 @@ void restore_cuts(FrameGraphs& graphs, const SimulationState& state) {
         findings.fractions.resize(model.cloths[cloth].grid.particle_count());
         if (part->second.size() != findings.fractions.size() * sizeof(glsl::vec4)) refuse(part->first);
         std::memcpy(findings.fractions.data(), part->second.data(), part->second.size());
-        topology.apply(findings);  // the order of the cuts changes neither what is cut nor what that splits
+        topology.apply(findings);  // the order of the cuts changes neither what is cut nor how it splits
     }
 }
 
@@ -103,7 +105,7 @@ void restore_single(FrameGraphs& graphs, const SimulationState& state) {
     graphs.rebuild(fields);
 }
 
-/// Gives what members' contacts bore; empty bytes: nothing.
+/// Restores what members' contacts bore; empty bytes: nothing.
 void put_borne(FrameGraphs& graphs, std::span<const std::size_t> members,
                const std::vector<std::vector<std::byte>>& own) {
     ClothSolver& solver = graphs.solver();

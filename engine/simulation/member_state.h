@@ -1,6 +1,6 @@
-// What a member's next frame depends on, as named parts (engine/docs/checkpoint.md): the state fields of its cloths by
-// the table (cloth/cloth_state.h), their cuts, and what its run knows. The rest follows from the scene and the frame
-// alone, such as the bounds of the watch, and is computed again.
+// What a member's next frame depends on, as named parts (engine/docs/checkpoint.md): the fields of its cloths' state,
+// from the table in cloth/cloth_state.h, their cuts, and what its run knows. Everything else, such as the bounds of the
+// watch, follows from the scene and the frame alone and is computed again.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,15 @@
 
 namespace drape {
 
-/// Returns the name of the part that has a field of a cloth.
+/// Returns the name of the part that holds a field of a cloth.
 std::string field_part(const ClothModel& cloth, Field field);
 
 /// Returns the parts; call it only while the member's run `can_save`.
 SimulationState saved_state(const FrameServer& server, std::size_t member);
-/// Takes members to saved states, one for each. Throws Error where one is not of such a member; then nothing has
-/// changed where there are several members, and a single one is over.
+/// Restores members to saved states, one for each. Throws Error where a state does not fit its member. With several
+/// members nothing has changed then; a single member cannot go on.
 void restore_states(FrameServer& server, std::span<const std::size_t> members, std::span<const SimulationState> states);
-/// Takes the cloths of members that share dispatches to their starts, in all sets, and leaves their runs as they are.
+/// Resets the cloths of members that share dispatches to their starts, in all state sets; their runs stay as they are.
 void put_starts(FrameServer& server, std::span<const std::size_t> members);
 
 }  // namespace drape

@@ -32,13 +32,13 @@ bool are_keys(const std::vector<Key>& keys) {
     return std::ranges::all_of(keys, fits) && std::ranges::adjacent_find(keys, not_before) == keys.end();
 }
 
-/// Returns whether there are no factors, or so many, between the two.
+/// Returns whether there are no factors, or `count` of them between the two bounds.
 bool has_factors(std::size_t count, const std::vector<float>& factors, float least, float most) {
     return factors.empty() || (factors.size() == count &&
                                std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
 }
 
-/// Says which maps of a cloth are none of its grid, or have values that no map has.
+/// Reports the maps of a cloth whose size does not match its grid, or whose values are out of range.
 template <class Expect>
 void check_maps(const Cloth& cloth, const std::string& at, const Expect& expect) {
     const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1),
@@ -55,7 +55,7 @@ void check_maps(const Cloth& cloth, const std::string& at, const Expect& expect)
            "a factor from 0 to 1 for every particle");
 }
 
-/// Returns whether what a cloth bears is a limit that its springs can come to.
+/// Returns whether the load at which a cloth's springs tear is one that they can reach.
 bool bears(const Cloth& cloth) {
     const Tear& tear = *cloth.tear;
     const double limit = tear.strain.value_or(0) + tear.tension.value_or(0);

@@ -4,7 +4,8 @@
 
 namespace drape {
 
-/// Returns the scene, if it has what everything else takes for granted; one that was read has it. Throws SceneFailure.
+/// Returns the scene if it fulfils what all other code takes for granted, as a scene that was read does. Throws
+/// SceneFailure.
 const SceneDescription& checked_scene(const SceneDescription& scene);
 
 }  // namespace drape

@@ -41,7 +41,7 @@ bool prefers_calling_thread(const SceneDescription& scene) {
 
 Device Device::for_scene(const SceneDescription& scene, bool draws, const std::string& selector,
                          Validation validation) {
-    constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads it when a device is looked for
+    constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads this when a device is searched for
     if (std::getenv(variable)) return Device(selector, validation);
     if (prefers_calling_thread(scene)) setenv(variable, "0", 0);
     std::optional<Device> device;
@@ -75,7 +75,7 @@ double Device::copy_bandwidth() const { return drape::copy_bandwidth(parts_->dev
 
 namespace {
 
-/// Timings index this.
+/// Indexed by Timings.
 constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, graph::TimestampMode::stages,
                                                     graph::TimestampMode::passes};
 
@@ -114,7 +114,7 @@ std::vector<std::byte> written(Kept& kept) {
     return writer.take();
 }
 
-/// Returns what a part of a saved state holds. Throws Error where it is not one of this model.
+/// Returns the contents of a part of a saved state. Throws Error where they do not belong to this model.
 template <class Kept>
 ByteReader checked_part(const SimulationState& state, const char* name, const SimulationModel& model) {
     const auto part = state.find(name);
@@ -137,7 +137,7 @@ struct Simulation::Parts {
           passages(model),
           asked(frame_options(scene, options)) {}
 
-    /// Makes it the only member of a server, and draws pictures where they have a device of their own.
+    /// Makes the scene the only member of a server, and prepares the pictures if another device draws them.
     void serve_alone() {
         Device::Parts* const drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
         server = std::make_shared<FrameServer>(device.parts_->device, model, drawing ? beside_pictures() : asked,
@@ -158,7 +158,7 @@ struct Simulation::Parts {
         return all;
     }
 
-    /// Returns the options of the server whose frames `pictures` draws.
+    /// Returns the options of the server whose frames are drawn by `pictures`.
     FrameOptions beside_pictures() {
         FrameOptions options = asked;
         options.draw = false;
@@ -169,7 +169,7 @@ struct Simulation::Parts {
         return options;
     }
 
-    /// Returns the frame's failure, or throws it.
+    /// Returns the frame's failure, or throws it, as the options say.
     std::optional<FrameFailure> judge(const FinishedFrame& frame) {
         const std::uint32_t substeps = frame.effort.substeps;
         if (!frame.statistics.empty())
@@ -182,7 +182,7 @@ struct Simulation::Parts {
         return diverged(*found) ? failure : found;
     }
 
-    /// Returns a request whose frames are judged before they go to `take`.
+    /// Returns a request whose frames are judged before `take` receives them.
     FrameRequest judged(const FrameRequest& request, const std::function<void(const FinishedFrame&)>& take) {
         FrameRequest all = request;
         all.finished = [this, take](const FinishedFrame& frame) {
@@ -211,7 +211,7 @@ struct Simulation::Parts {
         const graph::Graph& graph;
         const graph::Plan& plan;
     };
-    /// Returns what a frame takes that is handed out: one graph, or two, one per device.
+    /// Returns the graphs of a frame that is handed out: one, or one on each of two devices.
     std::vector<Planned> output() {
         FrameContents contents = graphs().contents(true, true);
         contents.tears = model.scene.tears();
@@ -226,14 +226,14 @@ struct Simulation::Parts {
     SimulationOptions wanted;
     SimulationModel model;
     Watch watch;
-    std::optional<FrameFailure> failure;  ///< the first of any frame, handed out or not
+    std::optional<FrameFailure> failure;  ///< of the first frame that failed, whether it was handed out or not
     PassageWatch passages;
     FrameOptions asked;
     std::shared_ptr<FrameServer> server;
     std::size_t number = 0;                   ///< among the members of the server
-    std::unique_ptr<FrameGraphs> own_graphs;  ///< describes the scene alone, where the server has more members
-    std::unique_ptr<Pictures> pictures;       ///< draws pictures where they have a device of their own
-    Pictures::Finished give;                  ///< gives to the caller, while one runs the simulation
+    std::unique_ptr<FrameGraphs> own_graphs;  ///< describes the scene alone, if the server has other members too
+    std::unique_ptr<Pictures> pictures;       ///< draws pictures if another device does so
+    Pictures::Finished give;                  ///< passes finished pictures to the caller during `run`
     FrameCopy kept;
 };
 
@@ -299,7 +299,7 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
     if (!parts_->is_alone()) throw Error("all simulations that were made together go on together");
     Pictures* const pictures = parts_->pictures.get();
-    bool giving = false;  // a throw is then the caller's own
+    bool giving = false;  // while true, an exception comes from the caller's own function
     const auto give = [&](const FinishedFrame& frame) {
         giving = true;
         finished(frame);
@@ -318,7 +318,7 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         parts_->server->serve();
         if (pictures) pictures->flush(give);
         return parts_->run().complete();
-    } catch (const FrameError&) {  // frames before it are handed out
+    } catch (const FrameError&) {  // the frames before the failed one are handed out
         if (pictures && !giving) pictures->flush(give);
         throw;
     }
@@ -378,7 +378,8 @@ SimulationFacts Simulation::facts() const {
     for (const Parts::Planned& output : parts_->output()) {
         facts.pass_count += output.plan.passes.size();
         facts.barrier_count += graph::barrier_count(output.plan);
-        const std::vector<SimulationFacts::Skipped> before = facts.skipped;  // both graphs say what the scene lacks
+        const std::vector<SimulationFacts::Skipped> before =
+            facts.skipped;  // both graphs list the same skipped work of the scene
         for (const graph::Remark& skipped : output.plan.skipped)
             if (std::ranges::find(before, skipped.what, &SimulationFacts::Skipped::what) == before.end())
                 facts.skipped.push_back({skipped.what, skipped.reason});

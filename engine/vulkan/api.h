@@ -1,6 +1,6 @@
-// Vulkan's functions come by volk. Everything that calls Vulkan includes this, nothing includes volk or Vulkan's
-// headers. No result code can be ignored: what a function returns must be looked at, or the file does not compile (a
-// cast to void does not help). `check` (error.h) throws what is no success.
+// volk loads Vulkan's functions. Every file that calls Vulkan includes this header; none includes volk's or Vulkan's
+// own. No result code can be ignored: a file that does not use the value of such a function does not compile (a cast to
+// void does not help). `check` (error.h) throws for a result that is no success.
 #pragma once
 
 #ifdef VULKAN_CORE_H_
@@ -8,7 +8,7 @@
 #endif
 
 #define VK_NO_PROTOTYPES
-// Vulkan has this place for an attribute of all its function types.
+// Vulkan's headers provide this macro for an attribute on all its function types.
 #include <vulkan/vk_platform.h>
 #undef VKAPI_PTR
 #define VKAPI_PTR __attribute__((warn_unused_result))

@@ -84,7 +84,7 @@ std::string missing_format(VkPhysicalDevice physical) {
 
 /// Returns the first requirement that the device lacks; empty when it has them all.
 std::string missing_requirement(VkPhysicalDevice physical, std::uint32_t api_version) {
-    // The version is asked first: the later questions use structures that an older device need not know.
+    // The version is checked first: the later queries use structures that an older device need not know.
     if (api_version < VK_API_VERSION_1_3) {
         return fmt::format("Vulkan 1.3 is needed, the device has {}", version_text(api_version));
     }

@@ -1,4 +1,4 @@
-// These functions ask a physical device what it is, and whether it has what Drape needs.
+// Queries what a physical device is, and whether it has what Drape needs.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ std::string without_dashes(std::string_view text) {
     return plain;
 }
 
-/// Returns a rank, of which the smaller is better.
+/// Returns the rank of a device's type; a smaller rank is better.
 std::size_t type_rank(const DeviceInfo& device) {
     constexpr std::array<std::string_view, 4> order = {"discrete", "integrated", "virtual", "cpu"};
     return static_cast<std::size_t>(std::find(order.begin(), order.end(), device.type) - order.begin());

@@ -1,4 +1,4 @@
-// Finds the device that a selector means: pure, so that it is tested with machines we do not have.
+// Finds the device that a selector names. It calls no Vulkan function, so tests cover machines that we do not have.
 #pragma once
 
 #include <span>

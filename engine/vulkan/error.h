@@ -13,7 +13,7 @@ namespace drape::vulkan {
 class VulkanError : public DeviceError {
   public:
     VulkanError(VkResult result, std::string_view call, std::string_view object = {});
-    /// A failure that is no VkResult: no such device, missing feature, over budget, shader mismatch.
+    /// Makes an error that is no VkResult: no such device, a missing feature, a budget exceeded, a shader mismatch.
     explicit VulkanError(const std::string& message);
     VkResult result() const { return result_; }
     bool is_failed_call() const { return is_failed_call_; }
@@ -26,8 +26,8 @@ class VulkanError : public DeviceError {
 /// Throws VulkanError unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view call, std::string_view object = {});
 
-/// Destructors, which cannot throw, call this: it returns when nothing of the device runs any more. A lost device runs
-/// nothing, and without memory for waiting there is nothing better to do than to go on.
+/// Waits until the device runs nothing any more, for destructors, which cannot throw. A lost device runs nothing, and
+/// if there is no memory for waiting, going on is the best choice.
 void let_finish(VkDevice device) noexcept;
 
 /// Returns "VK_ERROR_DEVICE_LOST" and so on.

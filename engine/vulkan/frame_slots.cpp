@@ -22,8 +22,8 @@ FrameSlots::~FrameSlots() {
         try {
             wait(slot);
         } catch (const VulkanError&) {
-            // The fence cannot be waited for; the queue's own idleness lets it go safely, and on a lost device (the
-            // usual reason) returns at once.
+            // The wait for the fence failed. Once the queue is idle the fence can be destroyed safely; for a lost
+            // device, the usual reason, this returns at once.
             let_finish(device_.handle());
         }
     }

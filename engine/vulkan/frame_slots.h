@@ -1,4 +1,4 @@
-// Two frames are in flight behind one small type with fences and one queue, no timeline semaphores (docs/devices.md).
+// Up to two frames are in flight, with a fence each and one queue, without timeline semaphores (docs/devices.md).
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace drape::vulkan {
 
 inline constexpr std::uint32_t frame_slot_count = 2;
 
-/// Slot k may be submitted again only after `wait(k)`. Destruction waits for all.
+/// Slot k may be submitted again only after `wait(k)`. The destructor waits for all slots.
 class FrameSlots {
   public:
     explicit FrameSlots(const Device& device);
@@ -22,7 +22,7 @@ class FrameSlots {
     /// Blocks until the last submit of the slot has finished (at once when there was none). Throws VulkanError on
     /// device loss.
     void wait(std::uint32_t slot);
-    /// Returns whether `wait` would return at once. Throws like it.
+    /// Returns whether `wait` would return at once. Throws as `wait` does.
     bool is_done(std::uint32_t slot) const;
     /// Throws VulkanError when the slot's last submit was not waited for.
     void submit(std::uint32_t slot, std::span<const VkCommandBuffer> commands);

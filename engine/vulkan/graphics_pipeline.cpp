@@ -12,8 +12,8 @@ namespace drape::vulkan {
 
 namespace {
 
-/// Writing from these stages would need vertexPipelineStoresAndAtomics or fragmentStoresAndAtomics, which the device is
-/// not asked for.
+/// Throws for stages that write: this would need vertexPipelineStoresAndAtomics or fragmentStoresAndAtomics, features
+/// that Drape does not require of devices.
 void require_read_only(const std::string& pipeline, const ShaderStage& stage) {
     for (const ReflectedDescriptor& descriptor : stage.reflected().descriptors) {
         if (descriptor.writable) {
@@ -23,7 +23,7 @@ void require_read_only(const std::string& pipeline, const ShaderStage& stage) {
     }
 }
 
-/// Vulkan guarantees 64 components between two stages, and surfaces take more.
+/// Throws if too many components go from vertices to fragments: Vulkan guarantees 64, and surfaces use more.
 void require_varyings(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     const std::uint32_t most = std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents);
@@ -32,7 +32,7 @@ void require_varyings(const Device& device, const std::string& pipeline, const S
                                       pipeline, stage.module(), needed, most));
 }
 
-/// The fixed functions point at each other, so they are built in place and never copied.
+/// The structures of the fixed functions point at each other, so they are built in place and never copied.
 struct FixedFunctions {
     explicit FixedFunctions(const GraphicsState& state)
         : has_color(state.color_format != VK_FORMAT_UNDEFINED), color_format(state.color_format) {

@@ -31,8 +31,8 @@ VkImageCreateInfo create_info(const ImageDescription& description) {
     return info;
 }
 
-/// Throws unless the device and its memory budget can take the image. This is asked before anything is created, since
-/// drivers find out as late as when the memory is bound, or never.
+/// Throws unless the device and its memory budget allow the image. This check precedes the creation of anything, since
+/// drivers report it only when the memory is bound, or never.
 void require_possible(const Device& device, const ImageDescription& description) {
     if (description.width == 0 || description.height == 0) refuse(description, "both sides must be at least 1");
     const std::uint32_t side = device.limits().maxImageDimension2D;
@@ -57,7 +57,7 @@ void require_possible(const Device& device, const ImageDescription& description)
         refuse(description, fmt::format("the device has no {} samples for this format and usage",
                                         static_cast<int>(description.samples)));
     }
-    // The sides are within the device's limit, so 64 bits hold the product.
+    // The sides are within the device's limit, so the product fits into 64 bits.
     const std::uint64_t bytes = std::uint64_t{description.width} * description.height * texel_size(description.format) *
                                 static_cast<std::uint32_t>(description.samples);
     if (bytes > properties.maxResourceSize) {
@@ -113,7 +113,7 @@ std::string Image::obstacle(const Device& device, const ImageDescription& descri
         if (row_pitch != 0 && image.row_pitch() != row_pitch)
             return fmt::format("its rows are {} texels apart, not {}", image.row_pitch(), row_pitch);
     } catch (const VulkanError& error) {
-        // A call that fails for another reason (no memory, a lost device) tells nothing about such images.
+        // A call that fails for another reason (no memory, a lost device) says nothing about such images.
         if (error.is_failed_call() && error.result() != VK_ERROR_FORMAT_NOT_SUPPORTED) throw;
         return error.what();
     }
@@ -190,7 +190,7 @@ void Image::bind(VkDeviceMemory memory, VkDeviceSize offset) {
     check(vkBindImageMemory(device_->handle(), handle_, memory, offset), "vkBindImageMemory", description_.name);
     if (buffer_)
         check(vkBindBufferMemory(device_->handle(), buffer_, memory, offset), "vkBindBufferMemory", description_.name);
-    // An image that is only copied can have no view.
+    // An image that is only copied cannot have a view.
     constexpr VkImageUsageFlags transfer = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (!(description_.usage & ~transfer)) return;
     auto info = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);

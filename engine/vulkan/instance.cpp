@@ -12,7 +12,7 @@
 
 namespace drape::vulkan {
 
-/// The messenger's callback gets this; its address is stable while the Instance lives.
+/// The data for the messenger's callback, whose address is stable while the Instance lives.
 struct Instance::Echo {
     ValidationLog* log;
     bool print;
@@ -27,8 +27,8 @@ namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-/// The layer finds copies and clears in GENERAL slow. It gives real layout errors the same message id, so the type and
-/// the text decide.
+/// Returns whether a message is the hint that copies and clears in GENERAL are slow. Real layout errors have the same
+/// message id, so the type and the text decide.
 bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_view id, std::string_view text) {
     return types == VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT &&
            id == "UNASSIGNED-CoreValidation-DrawState-InvalidImageLayout" &&
@@ -36,7 +36,7 @@ bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_v
 }
 
 void load_loader() {
-    // This is called once per process: each volkInitialize opens the library again.
+    // This is called once per process, since each volkInitialize opens the library again.
     static const VkResult result = volkInitialize();
     if (result != VK_SUCCESS) throw VulkanError("no Vulkan loader found (libvulkan.so.1)");
     if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
@@ -76,7 +76,7 @@ VkDebugUtilsMessengerCreateInfoEXT Instance::Echo::create_info() {
     auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    // GENERAL messages are left out: those are the loader's remarks on drivers for hardware that is not there.
+    // GENERAL messages are left out, since they are the loader's remarks on drivers for absent hardware.
     info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = callback;
     info.pUserData = this;
@@ -87,7 +87,7 @@ void ValidationLog::add(std::string message_id, std::string text) {
     ++count_;
     const std::lock_guard lock(mutex_);
     if (messages_.size() >= kept_message_count) return;
-    // Most texts of the layer name their id themselves.
+    // Most messages of the layer already contain their id.
     if (text.find(message_id) == std::string::npos) text = std::move(message_id) + ": " + text;
     messages_.push_back(std::move(text));
 }
@@ -112,8 +112,8 @@ Instance::Instance(const InstanceOptions& options) : Instance(options, Empty{}) 
     load_loader();
     if (validation_) require_validation_layer();
     create(validation_);
-    // These pointers of the loader's own dispatch serve every instance and device of the process, with and without
-    // layers. volkLoadDevice would tie them to one device to save a jump per call.
+    // These function pointers of the loader's own dispatch work for every instance and device of the process, with and
+    // without layers. volkLoadDevice would bind them to one device, to save a jump per call.
     volkLoadInstance(handle_);
     if (validation_) {
         const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -131,12 +131,12 @@ void Instance::create(bool validation) {
     auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
 
-    // Core validation is on by default; synchronization validation is not, and is what finds a missing barrier.
+    // Core validation is on by default; synchronization validation, which finds missing barriers, is not.
     constexpr VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = enabled;
-    // It is chained as well: the messenger proper does not live during vkCreateInstance and vkDestroyInstance.
+    // The messenger is chained too, since it does not exist during vkCreateInstance and vkDestroyInstance.
     VkDebugUtilsMessengerCreateInfoEXT messenger = echo_->create_info();
     features.pNext = &messenger;
     constexpr const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
@@ -167,7 +167,7 @@ void Instance::list_devices() {
 Instance::~Instance() {
     if (!handle_) return;
     if (messenger_) {
-        // volk's own pointer belongs to the instance made last, which may lack the extension.
+        // volk's own pointer belongs to the instance created last, which may lack the extension.
         const auto destroy_messenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkDestroyDebugUtilsMessengerEXT"));
         destroy_messenger(handle_, messenger_, nullptr);

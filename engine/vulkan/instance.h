@@ -15,7 +15,7 @@
 namespace drape::vulkan {
 
 /// Counts validation messages (warnings and errors) and keeps the texts of the first `kept_message_count`; thread-safe.
-/// The performance warning about copies and clears in GENERAL is filtered, because storage images stay in GENERAL on
+/// The performance warning about copies and clears in GENERAL is not counted, because storage images stay in GENERAL on
 /// purpose.
 class ValidationLog {
   public:
@@ -50,15 +50,15 @@ class Instance {
     VkInstance handle() const { return handle_; }
     bool validation() const { return validation_; }
     ValidationLog& validation_log() const { return *log_; }
-    /// Returns every physical device, in the loader's order, with the reason why one cannot be used. The driver was
-    /// asked once, when the instance was made.
+    /// Returns every physical device, in the loader's order, with the reason if it cannot be used. The driver was
+    /// queried once, when the instance was made.
     std::vector<DeviceInfo> devices() const { return devices_; }
     VkPhysicalDevice physical_device(std::uint32_t index) const { return physical_devices_.at(index); }
 
   private:
     struct Echo;
     struct Empty {};
-    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    /// Makes an object without handles. After this constructor, an exception in the delegating one runs the destructor.
     Instance(const InstanceOptions& options, Empty);
     void create(bool validation);
     void list_devices();

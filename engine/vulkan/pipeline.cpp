@@ -13,7 +13,7 @@ namespace drape::vulkan {
 
 namespace {
 
-/// `pipeline` may push this many storage images and buffers per stage.
+/// Throws unless `pipeline` may use this many storage images and buffers per stage.
 void require_counts(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
     const std::vector<ReflectedDescriptor>& all = stage.reflected().descriptors;
     const auto buffers = static_cast<std::uint32_t>(

@@ -1,4 +1,4 @@
-// Pipelines use push descriptors (set 0); their layouts come from the modules themselves.
+// Pipelines use push descriptors (set 0); their layouts are derived from the shader modules.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@
 
 namespace drape::vulkan {
 
-/// A module is found by the name of its shader.
+/// The shader of a stage, found by its name.
 struct Shader {
     std::string module;                         ///< "spring.comp"; empty: none
-    std::span<const std::uint32_t> words = {};  ///< tests use this SPIR-V instead of the module of that name
+    std::span<const std::uint32_t> words = {};  ///< tests pass this SPIR-V instead of the module of that name
 };
 
 VkDescriptorType descriptor_type(DescriptorKind kind);
 
 class ShaderStage;
 
-/// Compute and graphics pipelines share this. Descriptors are pushed at record time (VK_KHR_push_descriptor).
+/// The common base of compute and graphics pipelines. Descriptors are pushed at record time (VK_KHR_push_descriptor).
 class Pipeline {
   public:
     virtual ~Pipeline();
@@ -34,14 +34,15 @@ class Pipeline {
     VkPipelineLayout layout() const { return layout_; }
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
-    /// Returns the union over the stages, sorted by binding, of those that are used as specialised.
+    /// Returns the descriptors that the specialised stages use, all stages together, sorted by binding.
     const std::vector<ReflectedDescriptor>& descriptors() const { return descriptors_; }
     const std::optional<ReflectedStruct>& push_constants() const { return push_constants_; }
     VkShaderStageFlags push_constant_stages() const { return push_constant_stages_; }
 
   protected:
     Pipeline(const Device& device, std::string name, VkPipelineBindPoint bind_point);
-    /// Makes set and pipeline layout of the stages together; throws VulkanError where they contradict each other.
+    /// Makes the set layout and the pipeline layout of all stages together; throws VulkanError where stages contradict
+    /// each other.
     void make_layout(std::span<const ShaderStage* const> stages);
 
     const Device& device_;
@@ -61,11 +62,11 @@ class Pipeline {
 
 class ComputePipeline : public Pipeline {
   public:
-    /// Throws VulkanError when the module is missing, is no compute shader, uses what Drape does not, has no constant
-    /// of a given name, or goes beyond the device's limits.
+    /// Throws VulkanError when the module is missing, is no compute shader, uses something that Drape does not use,
+    /// lacks a given constant, or exceeds the device's limits.
     ComputePipeline(const Device& device, std::string name, const Shader& shader,
                     std::span<const SpecializationConstant> constants);
-    /// Returns the size as specialised.
+    /// Returns the size of the workgroup after specialisation.
     std::array<std::uint32_t, 3> local_size() const { return local_size_; }
 
   private:
@@ -75,7 +76,7 @@ class ComputePipeline : public Pipeline {
 struct GraphicsState {
     Shader vertex;
     Shader fragment;                                  ///< an empty module name means none (depth-only passes)
-    std::vector<SpecializationConstant> constants;    ///< each for the stages that have it
+    std::vector<SpecializationConstant> constants;    ///< each is set in the stages that have it
     VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;  ///< VK_FORMAT_UNDEFINED: no colour attachment
     VkFormat depth_format = VK_FORMAT_D32_SFLOAT;     ///< VK_FORMAT_UNDEFINED: no depth test
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -86,7 +87,7 @@ struct GraphicsState {
 /// Draws triangle lists without vertex buffers; viewport and scissor are dynamic, and so is rendering.
 class GraphicsPipeline : public Pipeline {
   public:
-    /// Throws like ComputePipeline, and when descriptors are not read only or do not mean the same in both stages.
+    /// Throws as ComputePipeline does, and when descriptors are not read only or differ between the two stages.
     GraphicsPipeline(const Device& device, std::string name, const GraphicsState& state);
 };
 

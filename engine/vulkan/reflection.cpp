@@ -64,7 +64,7 @@ struct ResourceKind {
     std::optional<DescriptorKind> kind;
 };
 
-/// Each of these has a set and a binding; those without a DescriptorKind are reported as mismatches.
+/// Resources of these kinds have a set and a binding; those without a DescriptorKind are reported as mismatches.
 constexpr ResourceKind resource_kinds[] = {
     {SPVC_RESOURCE_TYPE_STORAGE_IMAGE, "storage image", DescriptorKind::storage_image},
     {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, "storage buffer", DescriptorKind::storage_buffer},
@@ -174,7 +174,7 @@ class Reflector {
     }
 
     void read_block(const spvc_reflected_resource& resource, ReflectedDescriptor& result) const {
-        // On blocks GLSL's qualifiers become decorations of the members; these are what all members share.
+        // For blocks, GLSL's qualifiers become decorations of the members; these are those that all members share.
         const SpvDecoration* decorations = nullptr;
         std::size_t count = 0;
         require(spvc_compiler_get_buffer_block_decorations(compiler_, resource.id, &decorations, &count));
@@ -234,7 +234,7 @@ class Reflector {
         }
     }
 
-    /// Returns the locations up to the last that any of these takes.
+    /// Returns the number of locations up to the last one that these variables take.
     std::uint32_t locations(std::span<const spvc_reflected_resource> resources) const {
         std::uint32_t end = 0;
         for (const spvc_reflected_resource& resource : resources)
@@ -243,7 +243,8 @@ class Reflector {
         return end;
     }
 
-    /// Returns a variable's locations (Vulkan 1.3, 15.1.4, "Location Assignment"): one per vector of 32-bit numbers.
+    /// Returns the number of a variable's locations (Vulkan 1.3, 15.1.4, "Location Assignment"): one per vector of
+    /// 32-bit numbers.
     std::uint32_t locations_of(spvc_type_id id) const {
         const spvc_type type = spvc_compiler_get_type_handle(compiler_, id);
         std::uint32_t each = spvc_type_get_columns(type);

@@ -1,5 +1,5 @@
-// SPIRV-Cross reads once what a SPIR-V module says of itself: descriptors and push constants by the names that GLSL
-// gives them, so that C++ binds by name and nobody repeats a binding's number.
+// SPIRV-Cross reads once what a SPIR-V module declares: descriptors and push constants by their names in GLSL, so that
+// C++ binds by name and no binding's number is repeated.
 #pragma once
 
 #include <array>
@@ -34,10 +34,10 @@ struct ReflectedStruct {
 /// A descriptor that the entry point statically uses.
 struct ReflectedDescriptor {
     std::uint32_t set = 0, binding = 0;
-    std::string name;                    ///< GLSL's variable: an image, or a buffer's runtime array
+    std::string name;                    ///< the variable in GLSL: an image, or a buffer's runtime array
     std::string kind_name;               ///< "storage image", "uniform buffer", ...
     std::optional<DescriptorKind> kind;  ///< none: a kind that Drape does not use
-    bool is_array = false;               ///< the descriptor is an array of them
+    bool is_array = false;               ///< the variable is an array of descriptors
     bool readable = true, writable = true;
     VkFormat format = VK_FORMAT_UNDEFINED;   ///< images, texel buffers
     bool is_runtime_array = false;           ///< buffers: the block is one runtime array and nothing else
@@ -47,28 +47,28 @@ struct ReflectedDescriptor {
     bool operator==(const ReflectedDescriptor&) const = default;
 };
 
-/// The constants of a workgroup size given by local_size_x_id, ... have these names.
+/// The names of the constants by which a workgroup's size is given (local_size_x_id, ...).
 inline constexpr std::array<std::string_view, 3> local_size_names = {"local_size_x", "local_size_y", "local_size_z"};
 
-/// A shader that has this constant needs full subgroups, and is told by it how many invocations they have.
+/// A shader with this constant needs full subgroups, and receives in it how many invocations they have.
 inline constexpr std::string_view subgroup_constant = "subgroup_lanes";
 
 struct ReflectedModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_ALL;
     std::vector<ReflectedDescriptor> descriptors;
-    /// The block, or the struct that is its only member.
+    /// The push constant block, or the struct that is its only member.
     std::optional<ReflectedStruct> push_constants;
-    /// Specialization constants, name -> id; the workgroup's size has the names of local_size_names.
+    /// Specialization constants, name -> id; those of the workgroup's size have the names local_size_names.
     std::map<std::string, std::uint32_t, std::less<>> constants;
-    std::array<std::uint32_t, 3> local_size{};  ///< the default
-    /// Number of locations, of four components each, up to the last that goes from vertices to fragments.
+    std::array<std::uint32_t, 3> local_size{};  ///< before specialisation
+    /// The number of locations, of four components each, up to the last one that goes from vertices to fragments.
     std::uint32_t varying_locations = 0;
 };
 
 /// Throws VulkanError naming `module` when SPIRV-Cross cannot read the words.
 ReflectedModule reflect(std::span<const std::uint32_t> words, std::string_view module);
 
-/// Returns in which way the C++ struct is not the shader's; empty when it is. `shader` none: a scalar or a vector.
+/// Returns how the C++ struct differs from the shader's; empty when it does not. `shader` none: a scalar or a vector.
 std::string element_difference(const ReflectedDescriptor& shader, const glsl::StructLayout& layout);
 /// Returns the same for push constants, whose size C++ may round up to 16 bytes.
 std::string push_constant_difference(const std::optional<ReflectedStruct>& shader, const glsl::StructLayout* layout);
@@ -76,7 +76,7 @@ std::string push_constant_difference(const std::optional<ReflectedStruct>& shade
 /// Returns the SPIR-V of a shader ("spring.comp"); throws VulkanError when there is none.
 std::span<const std::uint32_t> spirv_module(std::string_view name);
 
-/// Returns what the module of that name says of itself, whatever its constants are; it is read once. Throws as
+/// Returns what the module with this name declares, independent of its constants' values; it is read once. Throws as
 /// `reflect` and `spirv_module` do.
 const ReflectedModule& module_interface(const std::string& name);
 

@@ -20,22 +20,22 @@ struct ImageDescription {
     std::uint32_t width = 1, height = 1;
     VkImageUsageFlags usage = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    /// The same memory is a storage buffer too, with texels row by row, `row_pitch` apart. Its tiling is LINEAR, so not
-    /// every device has such images (Image::obstacle), and where one does a GPU may be slower through the image.
+    /// The same memory is also a storage buffer, with texels row by row, `row_pitch` apart. The tiling is LINEAR, so
+    /// not every device has such images (Image::obstacle), and where one does, a GPU may access the image more slowly.
     bool buffer_view = false;
-    /// Bands of equally many rows, from the top, have these names: each is an image with a buffer view of its own in
-    /// this one's memory (Image::slices). They need a buffer view, since only LINEAR images may share memory. A band
-    /// without a name is no image: some devices take .2 ms for each.
+    /// The names of bands of equally many rows, from the top: each is an image of its own with a buffer view, in this
+    /// image's memory (Image::slices). They need `buffer_view`, since only LINEAR images may share memory. A band
+    /// without a name gets no image: some devices take .2 ms to create each.
     std::vector<std::string> slices = {};
 };
 
 class Image {
   public:
-    /// Throws VulkanError, before anything is created, when the size, format, usage or sample count is beyond the
-    /// device, or the texels beyond the memory budget.
+    /// Throws VulkanError, before anything is created, when size, format, usage or sample count exceeds what the device
+    /// allows, or the texels exceed the memory budget.
     Image(const Device& device, const ImageDescription& description);
-    /// Returns why the device or its budget cannot have such an image; empty when they can. The row pitch of its buffer
-    /// view must be `row_pitch`, where that is not 0.
+    /// Returns why the device or its budget does not allow such an image; empty when they do. If `row_pitch` is not 0,
+    /// the buffer view must have this row pitch.
     static std::string obstacle(const Device& device, const ImageDescription& description, std::uint32_t row_pitch = 0);
     ~Image();
     Image(Image&& other) noexcept;
@@ -46,21 +46,21 @@ class Image {
     VkImageAspectFlags aspect() const;
     const ImageDescription& description() const { return description_; }
     std::uint64_t byte_count() const { return byte_count_; }  ///< bytes allocated
-    /// Return, for an image with a buffer view, the buffer and its texels from one row to the next.
+    /// Return the buffer of an image with a buffer view, and its texels from one row to the next.
     VkBuffer buffer() const { return buffer_; }
     std::uint32_t row_pitch() const { return row_pitch_; }
-    /// Returns the images of ImageDescription::slices, which are made with this one and gone with it.
+    /// Returns the images of ImageDescription::slices, which live as long as this one.
     const std::vector<Image>& slices() const { return slices_; }
 
   private:
     struct Empty {};
-    /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
+    /// Makes an object without handles. After this constructor, an exception in the delegating one runs the destructor.
     Image(const Device& device, const ImageDescription& description, Empty);
-    /// Makes image and buffer without memory; returns what both need of it.
+    /// Makes image and buffer without memory; returns the memory requirements of both.
     VkMemoryRequirements make_handles();
     void make_buffer(VkMemoryRequirements& requirements);
     VkDeviceSize slice_byte_count() const;
-    /// Adds to what is needed of the memory.
+    /// Adds the slices' memory requirements.
     void make_slices(VkMemoryRequirements& requirements);
     void bind(VkDeviceMemory memory, VkDeviceSize offset);
 
@@ -73,7 +73,7 @@ class Image {
     std::uint32_t row_pitch_ = 0;
     std::uint64_t byte_count_ = 0;
     std::vector<Image> slices_;
-    std::vector<VkDeviceSize> slice_offsets_;  ///< B
+    std::vector<VkDeviceSize> slice_offsets_;  ///< bytes
 };
 
 enum class BufferHome {
@@ -91,8 +91,8 @@ struct BufferDescription {
 
 class Buffer {
   public:
-    /// Throws VulkanError, before anything is created, when the size is zero, beyond the device's limits (a storage
-    /// buffer must be bindable whole) or beyond the memory budget.
+    /// Throws VulkanError, before anything is created, when the size is zero, exceeds the device's limits (a storage
+    /// buffer must be bindable as a whole) or exceeds the memory budget.
     Buffer(const Device& device, const BufferDescription& description);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -100,8 +100,8 @@ class Buffer {
 
     VkBuffer handle() const { return handle_; }
     const BufferDescription& description() const { return description_; }
-    /// Returns all of a buffer with the usage STORAGE_TEXEL_BUFFER as rgba32f texels. The default device loads these
-    /// several times as fast as what is in a storage buffer (docs/devices.md).
+    /// Returns a view of all of a buffer with the usage STORAGE_TEXEL_BUFFER, as rgba32f texels. The default device
+    /// loads these several times as fast as the elements of a storage buffer (docs/devices.md).
     VkBufferView texels() const { return texels_; }
     /// Returns the mapped bytes; empty for BufferHome::device.
     std::span<std::byte> mapped() const { return {mapped_, mapped_ ? description_.byte_count : 0}; }
@@ -121,12 +121,12 @@ class Buffer {
     std::uint64_t allocated_ = 0;
 };
 
-/// Set-up and tests transfer with these, each with its own submit and wait. Images are taken to (and left in) GENERAL;
+/// Transfers for set-up and tests, each with its own submit and wait. Images are brought to GENERAL and left there;
 /// `bytes` is tightly packed rows. An upload discards what the image held. The sizes must be equal, and the resource
-/// made with the transfer usage (mapped buffers need none); VulkanError names it otherwise.
+/// must have the transfer usage (mapped buffers need none); otherwise a VulkanError names it.
 void upload(const Device& device, const Image& image, std::span<const std::byte> bytes);
 void upload(const Device& device, const Buffer& buffer, std::span<const std::byte> bytes);
-/// Uploads rows of an image from `first_row` on; the rest of its contents stays. It must be in GENERAL.
+/// Uploads rows of an image from `first_row` on; its other contents stay. The image must be in GENERAL.
 void upload_rows(const Device& device, const Image& image, std::uint32_t first_row, std::span<const std::byte> bytes);
 /// Bytes of whole rows of an image.
 struct RowsOfImage {
@@ -134,9 +134,9 @@ struct RowsOfImage {
     std::uint32_t first_row;
     std::vector<std::byte> bytes;
 };
-/// Uploads all of them at once.
+/// Uploads all these parts at once.
 void upload_rows(const Device& device, std::span<const RowsOfImage> parts);
-/// Uploads bytes of a buffer from `offset` on; the rest stays.
+/// Uploads bytes of a buffer from `offset` on; its other contents stay.
 void upload_range(const Device& device, const Buffer& buffer, std::uint64_t offset, std::span<const std::byte> bytes);
 void download(const Device& device, const Image& image, std::span<std::byte> bytes);
 void download(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);

@@ -24,7 +24,7 @@ std::string_view stage_name(VkShaderStageFlagBits stage) {
     }
 }
 
-/// Throws a VulkanError that names all of the module that Drape does not use.
+/// Throws a VulkanError that lists everything in the module that Drape does not use.
 void require_known(const std::string& pipeline, const std::string& module, const ReflectedModule& reflected) {
     std::string unknown;
     for (const ReflectedDescriptor& descriptor : reflected.descriptors) {
@@ -64,7 +64,7 @@ ShaderStage::ShaderStage(const Device& device, const std::string& pipeline, cons
     auto info = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = specialised.words.size() * sizeof(std::uint32_t);
     info.pCode = specialised.words.data();
-    // This comes last, so that nothing can throw while the module is owned and the destructor not yet in charge.
+    // This comes last: an exception after the module's creation would leak it, since the destructor would not run.
     create_handle(vkCreateShaderModule, device.handle(), info, module_, "vkCreateShaderModule", name_);
 }
 

@@ -10,8 +10,8 @@
 
 namespace drape::vulkan {
 
-/// One specialised stage of a pipeline that is being made. It finds the module, checks that it is of the stage and, as
-/// specialised, uses nothing that Drape does not, makes the VkShaderModule and keeps it while the pipeline is created.
+/// One specialised stage of a pipeline under construction. It finds the module, checks its stage and that, after
+/// specialisation, it uses nothing that Drape does not use, and keeps the VkShaderModule while the pipeline is created.
 class ShaderStage {
   public:
     ShaderStage(const Device& device, const std::string& pipeline, const Shader& shader, VkShaderStageFlagBits stage,
@@ -23,7 +23,7 @@ class ShaderStage {
     /// Returns a structure that names this object's module.
     VkPipelineShaderStageCreateInfo create_info() const;
     const ReflectedModule& reflected() const { return reflected_; }
-    /// Returns whether the module, before it was specialised, had a constant of that name.
+    /// Returns whether the module, before specialisation, has a constant with this name.
     bool has_constant(std::string_view name) const;
     const std::string& module() const { return name_; }
 
@@ -35,7 +35,7 @@ class ShaderStage {
     VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-/// Throws VulkanError when a constant is in none of the stages: a wrong name would silently change nothing.
+/// Throws VulkanError when no stage has one of the constants: a wrong name would silently change nothing.
 void require_constants(const std::string& pipeline, std::span<const SpecializationConstant> constants,
                        std::span<const ShaderStage* const> stages);
 

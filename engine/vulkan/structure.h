@@ -1,4 +1,4 @@
-// Every Vulkan structure and every vkCreate call have this in common.
+// Helpers for every Vulkan structure and every vkCreate call.
 #pragma once
 
 #include "vulkan/error.h"
@@ -12,8 +12,8 @@ T structure(VkStructureType type) {
     return value;
 }
 
-/// Calls `function` (vkCreateX) and stores the handle only on success: what a failed call leaves in its output is
-/// undefined, and must not reach a destructor. Throws VulkanError.
+/// Calls `function` (vkCreateX) and stores the handle only on success, since the output of a failed call is undefined
+/// and must not reach a destructor. Throws VulkanError.
 template <class Function, class Info, class Handle>
 void create_handle(Function function, VkDevice device, const Info& info, Handle& handle, std::string_view call,
                    std::string_view object) {

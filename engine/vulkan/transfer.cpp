@@ -34,8 +34,8 @@ void require_transferable(const Buffer& buffer, std::uint64_t bytes, VkBufferUsa
     }
 }
 
-/// Waits for all earlier work on the queue and makes it visible to all later work, the host included. It is plain and
-/// strong, since these transfers are not in the frame loop.
+/// Waits for all earlier work on the queue and makes it visible to all later work, the host included. This strong
+/// barrier is acceptable, since these transfers are not part of the frame loop.
 void full_barrier(VkCommandBuffer commands) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -48,7 +48,7 @@ void full_barrier(VkCommandBuffer commands) {
     vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-/// Takes UNDEFINED to GENERAL: the contents are lost, and earlier uses are waited for in execution only.
+/// Transitions from UNDEFINED to GENERAL: the contents are lost, and earlier uses only have to finish.
 void discard_to_general(VkCommandBuffer commands, const Image& image) {
     auto barrier = structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

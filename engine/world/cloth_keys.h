@@ -1,5 +1,6 @@
-// The members of `Cloth` as values, for rooms that must say of every one what it means to them. Such a room switches
-// over `ClothKey` without a `default`: a member that somebody adds does not compile here, and then in none of them.
+// The members of `Cloth` as values, for rooms that must say what each of them means to them. Such a room switches over
+// `ClothKey` without a `default`, so that a new member compiles neither here nor in any of these rooms before it is
+// handled.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 
 namespace drape {
 
-/// They stand in the order of the members.
+/// In the order of the members.
 enum class ClothKey {
     name,
     grid,
@@ -41,7 +42,7 @@ enum class ClothKey {
     appearance
 };
 
-/// The scene file says them here, below a cloth.
+/// The places of the members in a scene file, relative to a cloth.
 inline constexpr std::string_view cloth_key_pointers[] = {
     "/name",          "/grid",           "/size",    "/placement",      "/start",        "/rest",    "/areal_density",
     "/stiffness",     "/stiffness_keys", "/damping", "/friction",       "/thickness",    "/contact", "/self_collision",
@@ -49,7 +50,7 @@ inline constexpr std::string_view cloth_key_pointers[] = {
     "/maps/friction", "/maps/thickness", "/pins",    "/appearance"};
 constexpr std::string_view pointer_of(ClothKey key) { return cloth_key_pointers[static_cast<std::size_t>(key)]; }
 
-/// Returns references to all members, in their order. The binding has a name for each: one more does not compile.
+/// Returns references to all members, in their order. The binding names each member, so a new one does not compile.
 inline auto members_of(const Cloth& cloth) {
     const auto& [name, grid, size, placement, start, rest, areal_density, stiffness, stiffness_keys, damping, friction,
                  thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness, cell_density, tear,
@@ -68,7 +69,7 @@ inline constexpr auto cloth_keys = [] {
     return keys;
 }();
 
-/// Returns by key whether two cloths have different values.
+/// Returns, by key, whether two cloths have different values.
 inline std::array<bool, cloth_key_count> differences(const Cloth& one, const Cloth& other) {
     return [&]<std::size_t... member>(std::index_sequence<member...>) {
         return std::array{!(std::get<member>(members_of(one)) == std::get<member>(members_of(other)))...};

@@ -55,7 +55,7 @@ ShapeGeometry geometry(const Capsule& capsule) {
     }
     const double apart = std::hypot(y[0], y[1], y[2]);
     y = apart > 0 ? Vec3{y[0] / apart, y[1] / apart, y[2] / apart} : Vec3{0, 1, 0};
-    // Any x across y will do: the one of the world's x and z that is farther from y is made perpendicular.
+    // Any x perpendicular to y will do. It is made from the world's x or z axis, whichever is farther from y.
     Vec3 x = std::abs(y[0]) < std::abs(y[2]) ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
     const double shared = x[0] * y[0] + x[2] * y[2];
     for (std::size_t k = 0; k < 3; ++k) x[k] -= shared * y[k];
@@ -92,7 +92,7 @@ double pose_number(const Mesh& mesh, double time) {
     const double number = (time - mesh.frames_start) * mesh.frames_per_second;
     if (!mesh.loop) return std::clamp(number, 0.0, count - 1);
     const double within = number - count * std::floor(number / count);
-    return within < count ? within : 0;  // rounding
+    return within < count ? within : 0;  // rounding may give `count`
 }
 
 Collider formed(const Collider& collider, double time) {

@@ -11,7 +11,7 @@ namespace drape {
 
 namespace {
 
-/// Returns what a ball's radius lacks to keep triangles out.
+/// Returns how much a ball's radius must grow to keep triangles out.
 double lift(double radius, double covering) { return std::hypot(radius, covering) - radius; }
 
 double most_growth(const std::array<double, 3>& radii, const std::array<double, 3>& lifted) {
@@ -20,11 +20,11 @@ double most_growth(const std::array<double, 3>& radii, const std::array<double, 
     return most;
 }
 
-/// Returns radii of an ellipsoid that keeps triangles out of one of these. Scaled by sqrt(1 + c^2/e^2), e its smallest
-/// radius, it does. So does one that contains all points within c of it, as a triangle's corner is that near to any
-/// point of the triangle: by its support function h + c, and 2 c h <= c (h^2/t + t), that has the squared radii
-/// r^2 (1 + c/t) + c^2 + c t, whatever the t. The one that grows the least anywhere is taken, as a flat body would
-/// reach metres beside itself when scaled.
+/// Returns the radii of an ellipsoid that keeps triangles out of the ellipsoid with radii r. Two kinds do. One is
+/// scaled by sqrt(1 + c^2/e^2), where e is the smallest radius. The other contains all points within c of it, as a
+/// triangle's corner is that near to any point of the triangle: its support function is h + c, and because 2 c h <= c
+/// (h^2/t + t), the squared radii r^2 (1 + c/t) + c^2 + c t suffice for any t. The one with the smallest growth
+/// anywhere is taken, since a flat body would reach metres beside itself when scaled.
 std::array<double, 3> lifted_radii(const std::array<double, 3>& radii, double c) {
     const double smallest = std::ranges::min(radii), scale = std::hypot(1, c / smallest);
     std::array<double, 3> best = radii;
@@ -60,8 +60,8 @@ struct Grow {
     }
 };
 
-/// Returns whether shaders/collider_edges.comp keeps a shape's edges out of the cloth's triangles. A shell is made of
-/// balls, by which it grows.
+/// Returns whether shaders/collider_edges.comp keeps a shape's edges out of the cloth's triangles. A shell consists of
+/// balls, by which it grows instead.
 bool has_edges(const Plane&) { return false; }
 bool has_edges(const Sphere&) { return false; }
 bool has_edges(const Box&) { return true; }
@@ -74,7 +74,8 @@ bool has_edges(const Mesh& mesh) { return !mesh.shell; }
 double covering_radius(const Cloth& cloth) {
     double squared = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        // A given shape may be as uneven as cloth is that moves, unless that is at rest and may stretch, too.
+        // A given shape may be as uneven as moving cloth, unless it is the rest shape, which may then stretch in
+        // addition.
         const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
         const double scale =
             cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;

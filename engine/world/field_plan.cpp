@@ -11,14 +11,14 @@ namespace drape {
 
 namespace {
 
-/// Returns half of the least distance of particles of the scene's cloths, m.
+/// Returns half of the least distance between particles of the scene's cloths, m.
 double half_cell(const SceneDescription& scene) {
     double least = std::numeric_limits<double>::infinity();
     for (const Cloth& cloth : scene.cloths) least = std::min(least, 0.5 * least_spacing(cloth));
     return least;
 }
 
-/// Edges of cells that are larger than the mesh would only take the room of its samples.
+/// A margin for cells larger than the mesh would only waste the room of its samples.
 double margin_of(const SceneDescription& scene, const Collider& collider) {
     const Vec3& half_extents = std::get<Mesh>(collider.shape).shape->half_extents();
     double margin = 0;
@@ -30,7 +30,7 @@ double margin_of(const SceneDescription& scene, const Collider& collider) {
     return margin;
 }
 
-/// Returns how many points a mesh may have that asks for no spacing.
+/// Returns the largest number of points for a mesh that asks for no spacing.
 std::size_t most_points(const SceneDescription& scene, const Collider& collider) {
     const auto is_mesh = [](const Collider& each) { return special(each.shape).mesh != nullptr; };
     const auto count = static_cast<std::size_t>(std::ranges::count_if(scene.colliders, is_mesh));

@@ -15,10 +15,11 @@ namespace drape {
 
 namespace {
 
-constexpr double least_held_depth = 1e-3, least_jump = 1e-2;  ///< edge lengths; less is rounding
-constexpr double most_distances = 1e6;  ///< computed for a pin, but for so many instants at least:
+constexpr double least_held_depth = 1e-3, least_jump = 1e-2;  ///< edge lengths; smaller values are rounding
+constexpr double most_distances =
+    1e6;  ///< distances computed for a pin; the instants are reduced to that, but not below least_instants
 constexpr double least_instants = 64;
-constexpr int parts_of_a_frame = 4;  ///< where method auto chooses the substeps
+constexpr int parts_of_a_frame = 4;  ///< parts examined where method auto chooses the substeps
 
 /// The particles that a pin holds, where they start, in m.
 struct HeldByPin {
@@ -26,7 +27,7 @@ struct HeldByPin {
     Vec3 pivot{0, 0, 0};
 };
 
-/// A particle is the last pin's that names it.
+/// A particle belongs to the last pin that names it.
 std::vector<HeldByPin> held_by_pin(const Cloth& cloth) {
     std::vector<HeldByPin> held(cloth.pins.size());
     const std::size_t columns = cloth.grid[0];
@@ -53,7 +54,8 @@ Vec3 led(const RigidTransform& motion, const Vec3& pivot, const Vec3& rest) {
     return plus(plus(rotate(motion.rotation, minus(rest, pivot)), pivot), motion.translation);
 }
 
-/// Returns the least distance on the way between two points: along a straight one that of a convex shape is convex.
+/// Returns the least distance along the straight path between two points; for a convex shape the distance is convex
+/// there.
 double least_between(const Collider& collider, Vec3 from, Vec3 to) {
     const auto distance = [&](const Vec3& at) {
         return std::visit([&](const auto& shape) { return exact::shape_distance(shape, at); }, collider.shape);
@@ -65,7 +67,7 @@ double least_between(const Collider& collider, Vec3 from, Vec3 to) {
     return distance(from);
 }
 
-/// One pin beside one collider, at the instants that are looked at.
+/// One pin beside one collider, at the examined instants.
 class Beside {
   public:
     Beside(const Pin& pin, const HeldByPin& held, const Collider& collider)
@@ -79,7 +81,7 @@ class Beside {
     }
     double start() const { return start_; }
 
-    /// Takes the next instant. `frame` ends at it or behind it, and depths below `least` do not count.
+    /// Examines the next instant. `frame` ends at this instant or after it; depths below `least` do not count.
     void look(double time, std::uint32_t frame, double least, HeldDeep& found) {
         const RigidTransform motion = motion_at(pin_.path, time);
         const ColliderPose pose = collider_pose(collider_, time);
@@ -105,7 +107,7 @@ class Beside {
   private:
     struct At {
         Vec3 local{};
-        double distance = 0;  ///< m; beyond the shape's reach at most this
+        double distance = 0;  ///< m; an estimate from below where the particle is beyond the shape's reach
     };
     double distance(const Vec3& local) const {
         if (const double off = length(local) - reach_; off > 0) return off;  // spares the costly distance
@@ -119,7 +121,7 @@ class Beside {
     std::vector<At> before_;
 };
 
-/// Returns what a pin comes to be deepest in.
+/// Returns the collider in which a pin's particles come to be deepest.
 HeldDeep deepest_of(const SceneDescription& scene, const Cloth& cloth, const Pin& pin, const HeldByPin& held) {
     const double fps = scene.time.fps, last = (scene.time.frame_count - 1) / fps;
     const double end = std::min(pin.release.value_or(last), last);
@@ -135,7 +137,7 @@ HeldDeep deepest_of(const SceneDescription& scene, const Cloth& cloth, const Pin
         const double least = std::max(least_held_depth * least_spacing(cloth), 1.001 * beside.start());
         HeldDeep one;
         one.collider = index;
-        // Forms are costly to look at: those of the frames have to do.
+        // Forms of a mesh are costly to compute, so only those at whole frames are examined.
         const double count = collider.deforms() ? std::min(instants, std::ceil(end * fps)) : instants;
         for (double k = 0; k <= count; ++k) {
             const double time = count > 0 ? end * k / count : 0;

@@ -19,11 +19,11 @@ struct RigidTransform {
 std::array<double, 9> rotation_matrix(const Vec3& degrees);
 
 /// Returns the key that a path would have at `time` (s). Translation and angles are interpolated component by
-/// component: cubic Hermite between neighbouring keys, slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys
-/// (Catmull-Rom on uneven times), 0 at the first and last key; before and after, the end keys hold. It is exactly the
-/// key at a key's time, and exactly the one of no motion for an empty path.
+/// component: cubic Hermite between neighbouring keys, with slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys
+/// (Catmull-Rom on uneven times) and 0 at the first and last key; outside, the end keys hold. The result equals the key
+/// at a key's time exactly, and for an empty path it is exactly no motion.
 MotionKey key_at(const MotionPath& path, double time);
-/// Returns the transform of that key.
+/// Returns the transform of the key at `time`.
 RigidTransform motion_at(const MotionPath& path, double time);
 
 }  // namespace drape

@@ -14,10 +14,10 @@ namespace drape {
 
 namespace {
 
-constexpr double least_depth = 1e-3;  ///< edge lengths; less is rounding
+constexpr double least_depth = 1e-3;  ///< edge lengths; smaller depths are rounding
 constexpr std::size_t most_particles = std::size_t{1} << 18;
 
-/// Returns by particle whether it is a corner of a cell that no hole takes away.
+/// Returns by particle whether it is the corner of an existing cell.
 std::vector<bool> in_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1];
     const std::vector<bool> missing = missing_cells(cloth);
@@ -30,7 +30,7 @@ std::vector<bool> in_a_cell(const Cloth& cloth) {
     return used;
 }
 
-/// Returns where the particles start, in m; those of a large cloth are thinned out.
+/// Returns where the particles start, in m; of a large cloth, a sample of them.
 std::vector<Vec3> places(const Cloth& cloth) {
     const std::vector<bool> used = in_a_cell(cloth);
     const std::vector<Vec3> all = start_positions(cloth);
@@ -41,11 +41,11 @@ std::vector<Vec3> places(const Cloth& cloth) {
     return chosen;
 }
 
-/// Returns how deep (m) particles must be to count.
+/// Returns the depth (m) from which particles count.
 double counting_depth(const Cloth& cloth) { return least_depth * least_spacing(cloth); }
 
-/// Returns the half extents of a shape that cloth inside leaves by one of six faces (way_out_surface in
-/// shaders/include/colliders.h); nothing: it leaves by the nearest surface.
+/// Returns the half extents of a shape that cloth leaves through one of six faces (way_out_surface in
+/// shaders/include/colliders.h); nothing: cloth leaves it at the nearest surface.
 std::optional<Vec3> faces_of(const ColliderShape& shape) {
     using Faces = std::optional<Vec3>;
     return std::visit(
@@ -55,7 +55,7 @@ std::optional<Vec3> faces_of(const ColliderShape& shape) {
         shape);
 }
 
-/// `inside` holds the places of particles in the box, `normal` is the cloth's; both are in the box's frame.
+/// `inside` are the places of particles in the box, `normal` is the cloth's normal; both in the box's frame.
 WayOut way_out(const std::vector<Vec3>& inside, const Vec3& normal, const Vec3& half_extents, double speed) {
     WayOut best;
     double least = std::numeric_limits<double>::infinity();

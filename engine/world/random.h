@@ -1,4 +1,4 @@
-// Makes numbers that a seed decides, the same on every machine.
+// Generates numbers from a seed, the same on every machine.
 #pragma once
 
 #include <cstdint>

@@ -16,14 +16,14 @@ namespace drape {
 
 namespace {
 
-/// Returns the way from the first particle of a row (or column) to its last.
+/// Returns the vector from the first particle of a row (or column) to its last.
 Vec3 side(const Cloth& cloth, std::size_t axis) {
     const Vec3& way = axis == 0 ? cloth.placement.u : cloth.placement.v;
     const double length = cloth.placement.scale[axis] * cloth.size[axis];
     return {length * way[0], length * way[1], length * way[2]};
 }
 
-/// Returns four times what single precision tells apart where the cloth starts, m.
+/// Returns four times the distance that single precision resolves where the cloth starts, m.
 double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -34,7 +34,7 @@ double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
 }
 
-/// Calls `look` with three particles of every triangle.
+/// Calls `look` with the three particles of every triangle.
 template <class Look>
 void for_triangles(const Cloth& cloth, const Look& look) {
     const std::vector<bool> missing = missing_cells(cloth);
@@ -66,7 +66,7 @@ Vec3 summed_normal(const Cloth& cloth) {
     return normal;
 }
 
-/// Calls `look` with the length of every spring of a given shape along u (axis 0) or v over its length at rest.
+/// Calls `look` with the ratio of length to rest length of every spring of a given shape along u (axis 0) or v.
 template <class Look>
 void for_springs(const Cloth& cloth, std::size_t axis, const Look& look) {
     const std::vector<bool> missing = missing_cells(cloth);
@@ -100,10 +100,10 @@ std::vector<Vec3> jittered_positions(const Cloth& cloth) {
     return positions;
 }
 
-/// Moves the particles of triangles that cross half the way to their places, until none do. Flat cloth does not cross
-/// itself, so this ends. Single precision, in which the cloth starts, is asked.
+/// Moves the particles of triangles that cross halfway to their places without jitter, until no triangles cross. Flat
+/// cloth does not cross itself, so this ends. The test uses single precision, in which the cloth starts.
 void untie(const Cloth& cloth, std::vector<Vec3>& positions) {
-    constexpr int most_rounds = 64;  // beyond it nothing is left of any jitter
+    constexpr int most_rounds = 64;  // after so many halvings nothing is left of any jitter
     for (int round = 0; round < most_rounds; ++round) {
         std::vector<Vec3> rounded = positions;
         for (Vec3& at : rounded)
@@ -117,8 +117,8 @@ void untie(const Cloth& cloth, std::vector<Vec3>& positions) {
     }
 }
 
-/// Returns whether a cloth that meets itself may start through itself. Where jitter turns no triangle over, seen along
-/// the normal, none can cross another. Gathered cloth is refused.
+/// Returns whether a cloth with self-contact may start through itself. If jitter turns no triangle over, as seen along
+/// the normal, no triangles can cross. Gathered cloth is refused.
 bool may_be_tied(const Cloth& cloth) {
     if (!cloth.start.empty()) return false;
     const double height = start_height(cloth), jitter = start_jitter(cloth);
@@ -210,7 +210,8 @@ bool leaves_a_cell(const Cloth& cloth) {
     for (const IndexBox& hole : cloth.holes)
         covered += std::uint64_t{hole.last[0] - hole.first[0]} * (hole.last[1] - hole.first[1]);
     if (covered < columns * rows) return true;
-    // Summed from the left and from above, this array of differences says how many holes a cell is in.
+    // Each entry of this array of differences, summed from the left and from above, is the number of holes that contain
+    // a cell.
     std::vector<std::int32_t> holes((columns + 1) * (rows + 1));
     for (const IndexBox& hole : cloth.holes)
         for (const auto& [column, row, sign] : {std::tuple{hole.first[0], hole.first[1], 1},

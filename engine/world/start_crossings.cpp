@@ -17,15 +17,15 @@ namespace drape {
 
 namespace {
 
-constexpr double touching_depth = 1e-4;  ///< m: less is touching
+constexpr double touching_depth = 1e-4;  ///< m: cloths that overlap by less only touch
 
-/// A cloth as it starts.
+/// A cloth at its start.
 struct Sheet {
     const Cloth* cloth;
     std::vector<bool> missing;
     std::vector<Vec3> at;
     Vec3 lower, upper;
-    double doubt;  ///< m: single precision cannot tell less
+    double doubt;  ///< m: the resolution of single precision here
 
     explicit Sheet(const Cloth& of)
         : cloth(&of), missing(missing_cells(of)), at(start_positions(of)), lower(at[0]), upper(at[0]) {
@@ -41,7 +41,7 @@ struct Sheet {
 
     TriangleCrossings::Mesh mesh() const { return start_mesh(*cloth, at); }
 
-    /// Returns whether a point is on the flat cloth or up to `within` (m) off it.
+    /// Returns whether a point is on the flat cloth, or at most `within` (m) away from it.
     bool holds(const Vec3& point, double within) const {
         const Vec3 &origin = at.front(), &u_end = at[cloth->grid[0] - 1], &v_end = at[at.size() - cloth->grid[0]];
         const Vec3 from = minus(point, origin), u = minus(u_end, origin), v = minus(v_end, origin);
@@ -64,13 +64,13 @@ bool boxes_meet(const Sheet& a, const Sheet& b, double within) {
     return true;
 }
 
-/// The way that takes a sheet off another one.
+/// The direction and distance that move a sheet off another one.
 struct WayOff {
-    double depth;  ///< m; not finite: there is none
+    double depth;  ///< m; not finite: there is no way
     Vec3 way;      ///< unit
 };
 
-/// Returns the way of `b` along the normal of `a`, of any shape, to the side on which it is sooner off it.
+/// Returns how `b`, moved along the normal of `a` (of any shape), clears it, to the side on which it does so sooner.
 WayOff way_off(const Sheet& a, const Sheet& b, const Vec3& normal) {
     const auto heights = [&](const Sheet& sheet) {
         const auto [low, high] =
@@ -83,7 +83,7 @@ WayOff way_off(const Sheet& a, const Sheet& b, const Vec3& normal) {
     return {std::min(up, down), {side * normal[0], side * normal[1], side * normal[2]}};
 }
 
-/// Returns the way of `b` to the side of the plane of `a` to which it reaches farther.
+/// Returns how `b` clears the plane of `a`, to the side on which most of `b` is.
 WayOff way_off(const Sheet& a, const Sheet& b) {
     const Vec3 normal = start_normal(*a.cloth);
     if (!(length(normal) > 0)) return {std::numeric_limits<double>::infinity(), {}};
@@ -104,7 +104,7 @@ WayOff shorter_way_off(const Sheet& a, const Sheet& b) {
     return {first.depth, {-first.way[0], -first.way[1], -first.way[2]}};
 }
 
-/// Returns whether a triangle has a point on it, or up to `within` (m) off its plane.
+/// Returns whether a point is on a triangle, or at most `within` (m) off its plane.
 bool holds(const std::array<Vec3, 3>& corner, const Vec3& point, double within) {
     const Vec3 u = minus(corner[1], corner[0]), v = minus(corner[2], corner[0]), from = minus(point, corner[0]);
     const Vec3 normal = cross(u, v);
@@ -115,10 +115,11 @@ bool holds(const std::array<Vec3, 3>& corner, const Vec3& point, double within) 
     return s >= least && t >= least && s + t <= 1 - least;
 }
 
-/// Points in slabs across one axis, those of a slab in the order of another: boxes find theirs without looking at all.
+/// Points in slabs across one axis, sorted within a slab along another: a box finds its points without a test of all
+/// points.
 class Slabs {
   public:
-    /// Takes the two axes along which the box is longest.
+    /// Uses the two axes along which the box is longest.
     Slabs(std::vector<Vec3> points, const Vec3& lower, const Vec3& upper, double width)
         : points_(std::move(points)), lower_(lower), width_(width) {
         std::array<std::size_t, 3> axes{0, 1, 2};
@@ -127,7 +128,7 @@ class Slabs {
         std::ranges::sort(points_, {}, [this](const Vec3& x) { return key(x); });
     }
 
-    /// Returns whether a point in the box is one that `test` wants.
+    /// Returns whether some point in the box passes `test`.
     template <class Test>
     bool any(const Vec3& low, const Vec3& high, const Test& test) const {
         for (double slab = slab_of(low); slab <= slab_of(high); ++slab) {
@@ -149,7 +150,7 @@ class Slabs {
     std::size_t across_ = 0, along_ = 1;
 };
 
-/// Returns whether any particle of `a` is on the triangles of `b`, of any shape.
+/// Returns whether any particle of `a` lies on the triangles of `b`, of any shape.
 bool lies_on(const Sheet& a, const Sheet& b, double within) {
     std::vector<Vec3> near;
     for (const Vec3& x : a.at) {
@@ -181,13 +182,13 @@ bool touches(const Sheet& a, const Sheet& b, double within) {
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }
 
-/// Returns whether the sheet's triangles are lower than what rounding moves them by.
+/// Returns whether the height of the sheet's triangles is below the rounding of positions.
 bool is_gathered(const Sheet& sheet) {
     return !(start_height(*sheet.cloth) > sheet.doubt - sheet.cloth->placement.jitter);
 }
 
-/// Returns whether a cloth that may not cross itself does. Where jitter turns no triangle over, seen along the
-/// normal, none can cross another.
+/// Returns whether a cloth with self-contact crosses itself. If jitter turns no triangle over, as seen along the
+/// normal, no triangles can cross.
 bool crosses_itself(const Sheet& sheet) {
     if (!sheet.cloth->start.empty()) return TriangleCrossings({sheet.mesh()}).any();
     return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) && TriangleCrossings({sheet.mesh()}).any();

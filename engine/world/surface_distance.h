@@ -1,5 +1,5 @@
-// Computes signed distances in double precision, by methods other than the shaders': for where cloth starts, and as the
-// oracle for contact tests.
+// Computes signed distances in double precision, by methods other than the shaders': to judge where cloth starts, and
+// as the oracle of contact tests.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ inline Vec3 ellipsoid_foot(const Vec3& point, const Vec3& radii) {
     return foot;
 }
 
-// A shape's `local` is a point in its own frame, about its centre.
+// `local` is a point in the shape's own frame, about its centre.
 inline double shape_distance(const Plane& plane, const Vec3& local) { return dot(local, plane.normal); }
 
 inline double shape_distance(const Sphere& sphere, const Vec3& local) { return length(local) - sphere.radius; }
@@ -70,7 +70,7 @@ inline double shape_distance(const Ellipsoid& ellipsoid, const Vec3& local) {
     return level < 0 ? -gap : gap;
 }
 
-/// Finds the ball of the sweep whose surface is nearest: the distance is convex along the segment.
+/// Finds the ball of the capsule whose surface is nearest: the distance is convex along the segment.
 inline double capsule_sweep(const Capsule& capsule, const Vec3& local, Vec3* foot = nullptr) {
     const double half = 0.5 * length(minus(capsule.to, capsule.from));
     const auto radius = [&](double t) { return capsule.radii[0] + t * (capsule.radii[1] - capsule.radii[0]); };
@@ -101,7 +101,7 @@ inline double surface_distance(const Collider& collider, const ColliderPose& pos
     return std::visit([&](const auto& shape) { return shape_distance(shape, local); }, collider.shape);
 }
 
-/// A mesh that deforms has the form of that time.
+/// A mesh that deforms has its form at that time.
 inline double surface_distance(const Collider& collider, double time, const Vec3& x) {
     return surface_distance(formed(collider, time), collider_pose(collider, time), x);
 }

@@ -38,7 +38,7 @@ class TriangleCrossings {
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Counts the pairs of triangles that cross, of those meshes for whose indices `counts` is true.
+    /// Counts the pairs of triangles that cross, among the meshes for whose indices `counts` is true.
     template <class Counts>
     std::size_t count(const Counts& counts) const {
         std::size_t crossings = 0;
@@ -51,7 +51,7 @@ class TriangleCrossings {
             if (crossings_of(0, triangle, box_of(triangle), all) > 0) return true;
         return false;
     }
-    /// Returns by point, of all meshes in turn, whether it is a corner of a triangle that crosses another.
+    /// Returns by point, through all meshes in turn, whether it is a corner of a triangle that crosses another one.
     std::vector<bool> crossed_points() const {
         std::vector<bool> crossed(points_.size());
         for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
@@ -155,7 +155,7 @@ class TriangleCrossings {
         return false;
     }
 
-    /// Returns whether p - q goes through the inside of a triangle.
+    /// Returns whether the segment from p to q passes through the inside of a triangle.
     bool passes(const Point& p, const Point& q, const Triangle& wall) const {
         const Point &a = points_[wall[0]], &b = points_[wall[1]], &c = points_[wall[2]];
         const long double above = volume(a, b, c, p), below = volume(a, b, c, q);

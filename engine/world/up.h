@@ -1,4 +1,4 @@
-// The world of a scene has an axis that points up. Nothing else knows it: what depends on it asks here.
+// Which axis of a scene's world points up. All code that depends on it uses these functions.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@ namespace drape {
 /// Returns the coordinate that grows upwards.
 inline std::size_t up_axis(Up up) { return up == Up::z ? 2 : 1; }
 
-/// Returns in a scene's world what is `v` in a world with y up, turned about x: y becomes z, and z becomes -y.
+/// Converts `v` from a world with y up to the scene's world, by a turn about x: y becomes z, and z becomes -y.
 inline Vec3 in_world(Up up, const Vec3& v) { return up == Up::z ? Vec3{v[0], 0 - v[2], v[1]} : v; }
 
-/// Returns the inverse of in_world: what a vector of a scene's world is in one with y up.
+/// Converts a vector of the scene's world to a world with y up: the inverse of in_world.
 inline Vec3 with_y_up(Up up, const Vec3& v) { return up == Up::z ? Vec3{v[0], v[2], 0 - v[1]} : v; }
 
 }  // namespace drape

@@ -13,7 +13,8 @@ Vec3 strongest(const std::vector<VectorKey>& keys, const Vec3& steady) {
     return std::ranges::max(keys, {}, [](const VectorKey& key) { return length(key.value); }).value;
 }
 
-/// Keys on both sides of a time, and its share of the way from one to the other; an end's key is on both sides.
+/// The keys on both sides of a time, and the time's share of the interval between them; beyond an end, its key is on
+/// both sides.
 template <class Key>
 struct Around {
     const Key &from, &to;

@@ -1,4 +1,4 @@
-// Evaluates what keys may change: gravity, the wind's steady velocity (gust.h adds the gusts) and a cloth's stiffness.
+// Evaluates what keys can change: gravity, the wind's steady velocity (gust.h adds the gusts) and a cloth's stiffness.
 #pragma once
 
 #include <cstdint>
@@ -9,21 +9,22 @@
 namespace drape {
 
 /// Returns a keyed vector at `time` (s): linear between two keys, component by component, so that it never leaves their
-/// range; before the first and after the last key that key holds. Without keys it is `steady`.
+/// range. Before the first key and after the last, that key holds. Without keys it is `steady`.
 Vec3 value_at(const std::vector<VectorKey>& keys, const Vec3& steady, double time);
-/// Returns whether it keeps one value from a time to another, s.
+/// Returns whether the value is constant between two times, s.
 bool is_steady(const std::vector<VectorKey>& keys, double from, double to);
 
 /// Returns gravity at `time` (s), m/s^2.
 Vec3 gravity_at(const SceneDescription& scene, double time);
-/// Returns whether gravity is not the same all the time.
+/// Returns whether gravity changes during the scene.
 bool gravity_changes(const SceneDescription& scene);
-/// Returns whether wind blows or gravity changes: the substeps then hear of both.
+/// Returns whether wind blows or gravity changes; then every substep receives both.
 bool has_weather(const SceneDescription& scene);
 /// Returns the factor of a cloth's stiffness in a frame: linear between two keys, at the frame's middle; in frame 0,
 /// which has no length, at its time.
 double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame);
-/// Return gravity, m/s^2, and the wind's velocity without gusts, m/s, when they are largest.
+/// Returns gravity, m/s^2, at its strongest; the other function, the velocity of the wind without gusts, m/s, at its
+/// largest.
 Vec3 strongest_gravity(const SceneDescription& scene);
 Vec3 strongest_wind(const Wind& wind);
 

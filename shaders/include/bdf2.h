@@ -1,9 +1,9 @@
-// This header holds BDF2 in displacement form (docs/solvers.md, "Line solve"), the backward Euler step (Verlet's,
-// verlet.h, with implicit springs) that replaces it where there is no history worth trusting, and the control that
-// decides which of the two a substep is. A particle's state beside its position: d, the displacement of the substep,
-// d_before, that of the substep before, and `excess` = u - d = (d - d_before)/2, where u is h times the velocity at the
-// substep's end and d is h times its mean. Small numbers are stored and added, so no digits are lost to d. Both steps,
-// and changes between them, are exact in free flight.
+// BDF2 in displacement form (docs/solvers.md, "Line solve"); the backward Euler step (Verlet's, verlet.h, with implicit
+// springs) that replaces it where the history cannot be trusted; and the control that decides which of the two a
+// substep is. Beside its position, a particle's state is d, the displacement of the substep, d_before, that of the
+// substep before, and `excess` = u - d = (d - d_before)/2, where u is h times the velocity at the substep's end and d
+// is h times its mean. These small numbers are stored and added, so no digits are lost in d. Both steps, and changes
+// between them, are exact in free flight.
 #ifndef DRAPE_BDF2_H
 #define DRAPE_BDF2_H
 
@@ -29,24 +29,24 @@ SHARED vec3 bdf2_increment(vec3 displacement, vec3 displacement_before, vec3 exc
     return increment;
 }
 
-/// Returns the drag k (N/m) of a BDF2 step, given that of a Verlet step. The force of a BDF2 step acts at its end,
-/// where the velocity is (3 d' - d)/(2 h), while the wind's force was taken at d/h, so it changes by -2 k 3/2 (d' - d).
-/// A Verlet step takes half of its change of velocity, at the middle.
+/// Returns the drag k (N/m) of a BDF2 step, from that of a Verlet step. The force of a BDF2 step acts at its end, where
+/// the velocity is (3 d' - d)/(2 h), but the wind's force was computed at d/h, so it changes by -2 k 3/2 (d' - d). A
+/// Verlet step includes half of its change of velocity, that at its middle.
 SHARED float bdf2_drag(float drag) {
     precise float bdf2 = 3.0f * drag;
     return bdf2;
 }
 
-/// The control passes this state from a cloth's substep to the next, one integer per texel of the control image.
+/// The control's state, which is passed from a cloth's substep to the next, one integer per texel of the control image.
 struct LineControl {
     uint order;        // order of this substep: 1 backward Euler, 2 BDF2; 0 before the first
     uint wrong_lines;  // lines of this substep that met a spring wrong by more than line_violation_limit
     uint hold;         // substeps that remain backward Euler, this one included
 };
 
-/// Returns the control of the next substep. The first substeps are backward Euler, since the history that a cloth
-/// starts with does not know the forces that hold it. So are those after more than `most_wrong` lines met a spring of
-/// |C - T|/L > line_violation_limit, or after something else set `hold`.
+/// Returns the control of the next substep. The first substeps are backward Euler, since the history with which a cloth
+/// starts does not include the forces that hold it. Substeps after one with more than `most_wrong` lines that had a
+/// spring of |C - T|/L > line_violation_limit are backward Euler too, and so are those after something else set `hold`.
 SHARED LineControl next_control(LineControl last, uint most_wrong) {
     uint hold = last.order == 0u ? line_hold_start : last.hold > 0u ? last.hold - 1u : 0u;
     if (last.wrong_lines > most_wrong) hold = line_hold_count;

@@ -6,62 +6,64 @@
 #ifndef DRAPE_BEND_H
 #define DRAPE_BEND_H
 
-/// Second difference x1 - 2 x2 + x3 (m). It is taken from the two edges that leave the middle, which are small numbers.
+/// Returns the second difference x1 - 2 x2 + x3 (m). It is computed from the two edges that leave the middle particle,
+/// which are small numbers.
 SHARED vec3 second_difference(vec3 edge_to_first, vec3 edge_to_third) {
     precise vec3 difference = edge_to_first + edge_to_third;
     return difference;
 }
 
-/// Returns by how much a difference is beyond that at rest, m.
+/// Returns a difference minus the difference at rest, m.
 SHARED vec3 beyond_rest(vec3 difference, vec3 target) {
     precise vec3 beyond = difference - target;
     return beyond;
 }
 
-/// Returns `sum` plus an element's pull. `factor` is 2 b on the element's middle and -b on its ends, or, for a twist,
-/// -t on the corners 00 and 11 and t on 10 and 01; each times phi h^2/m_inner.
+/// Returns `sum` plus the pull of an element. `factor` is 2 b for the element's middle and -b for its ends, or, for a
+/// twist, -t for the corners 00 and 11 and t for 10 and 01; each multiplied by phi h^2/m_inner.
 SHARED vec3 add_bend(vec3 sum, vec3 difference, float factor) {
     precise vec3 total = sum + difference * factor;
     return total;
 }
 
-/// Middle particle (column, row) of element `element` of one colour. A colour takes every third along the axis, so that
-/// its elements share no particle.
+/// Returns the middle particle (column, row) of element `element` of one colour. A colour contains every third element
+/// along the axis, so that its elements share no particle.
 SHARED ivec2 bend_middle(ivec2 element, ivec2 axis, int colour) {
     return ivec2(axis.x != 0 ? 3 * element.x + colour + 1 : element.x,
                  axis.y != 0 ? 3 * element.y + colour + 1 : element.y);
 }
 
-/// Share of an element whose two springs have the shares `first` and `second`; over a missing spring nothing bends.
+/// Returns the share of an element whose two springs have the shares `first` and `second`; an element with a missing
+/// spring does not bend.
 SHARED float bend_share(float first, float second) { return first < second ? first : second; }
 
-/// Twist x00 - x10 - x01 + x11 (m) of a cell from its upper edge x10 - x00 and its lower one x11 - x01.
+/// Returns the twist x00 - x10 - x01 + x11 (m) of a cell from its upper edge x10 - x00 and its lower one x11 - x01.
 SHARED vec3 twist_difference(vec3 upper_edge, vec3 lower_edge) {
     precise vec3 difference = lower_edge - upper_edge;
     return difference;
 }
 
-/// Upper left corner of cell `element` of one colour. A colour takes every second cell along both axes, so that its
-/// cells share no particle. `first`: the colour's first cell, 0 or 1 along each axis.
+/// Returns the upper left corner of cell `element` of one colour. A colour contains every second cell along both axes,
+/// so that its cells share no particle. `first`: the colour's first cell, 0 or 1 along each axis.
 SHARED ivec2 twist_corner(ivec2 element, ivec2 first) {
     return ivec2(2 * element.x + first.x, 2 * element.y + first.y);
 }
 
-/// Returns the factor of the cell's stiffness when it is whole, else 0: a missing or cut cell has no twist. The
-/// arguments are the spring shares of three of its corners, which own its four sides (x: rows, y: columns) and its two
-/// diagonals (z, w); the diagonals reveal a hole of one cell, whose sides all belong to neighbours too.
+/// Returns the factor of the cell's stiffness if the cell is whole, otherwise 0: a missing or cut cell has no twist.
+/// The arguments are the spring shares of three of its corners, which own its four sides (x: rows, y: columns) and its
+/// two diagonals (z, w). The diagonals reveal a hole of one cell, whose sides all belong to neighbours too.
 SHARED float twist_share(vec4 upper_left, vec4 upper_right, vec4 lower_left) {
     bool sides = upper_left.x > 0.0f && upper_left.y > 0.0f && upper_right.y > 0.0f && lower_left.x > 0.0f;
     return sides && upper_left.z > 0.0f && upper_right.w > 0.0f ? upper_left.z : 0.0f;
 }
 
-/// Inverse mass that a cell's twist feels.
+/// Returns the inverse mass that a cell's twist acts on.
 SHARED float twist_weight(float upper_left, float upper_right, float lower_left, float lower_right) {
     precise float weight = (upper_left + upper_right) + (lower_left + lower_right);
     return weight;
 }
 
-/// Inverse mass that an element feels.
+/// Returns the inverse mass that an element acts on.
 SHARED float bend_weight(float weight_first, float weight_middle, float weight_third) {
     precise float weight = weight_first + 4.0f * weight_middle + weight_third;
     return weight;

@@ -1,5 +1,5 @@
-// A particle feels the elements in whose tangents it is (rest_bend.h), where a cloth rests bent: they turn with it. The
-// includer has include/bend_target.h and include/rest_bend.h.
+// Returns the pull on a particle by the elements whose tangents it defines (rest_bend.h), in cloth that rests bent:
+// these elements turn with it. The includer has include/bend_target.h and include/rest_bend.h.
 vec3 bend_pull(ivec2 texel) {
     ivec2 left = texel - ivec2(1, 0), up = texel - ivec2(0, 1), last = push.grid - 1;
     vec4 shares = LOAD(spring_shares, texel);
@@ -19,7 +19,7 @@ vec3 bend_pull(ivec2 texel) {
     if (texel.x < last.x) sum = add_pull_of(sum, bend_part(texel + ivec2(1, 0), bend_pull_row), of_right);
     if (texel.y > 0) sum = add_pull_of(sum, bend_part(up, bend_pull_column), acts_up);
     if (texel.y < last.y) sum = add_pull_of(sum, bend_part(texel + ivec2(0, 1), bend_pull_column), of_below);
-    // Cells, by the corner that the particle is; those that the grid lacks are not pulled.
+    // The cells, by which of their corners the particle is; cells that the grid lacks are skipped.
     sum = add_pull_of(sum, bend_part(texel, twist_pull_row), -1.0f);
     sum = add_pull_of(sum, bend_part(texel, twist_pull_column), -1.0f);
     if (texel.x > 0) {

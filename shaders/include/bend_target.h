@@ -1,6 +1,6 @@
-// The image of what bending elements are at rest, in the substep at hand (bend_targets.comp), is bend_parts times as
-// wide as the grid; texels of elements along rows and columns are their middle particle's, those of cells their
-// corner's.
+// The image with the rest differences of bending elements in the current substep (bend_targets.comp). It is bend_parts
+// times as wide as the grid; elements along rows and columns use the texel of their middle particle, cells that of
+// their corner.
 #include "include/rest_length.h"
 layout(set = 0, binding = 17, rgba32f) uniform readonly image2D bend_targets;
 
@@ -10,5 +10,5 @@ vec3 bend_part(ivec2 owner, int part) {
     return found;
 }
 
-/// The difference of an element at rest, m; `part`: 0 row, 1 column, 2 twist. Flat cloth rests at zero.
+/// Returns an element's difference at rest, m; `part`: 0 row, 1 column, 2 twist. For flat cloth it is zero.
 vec3 bend_target(ivec2 owner, int part) { return bend_part(owner, part); }

@@ -1,5 +1,5 @@
-// This header is the implicit bending of a whole line of particles (docs/solvers.md, "Bending along lines"), together
-// with the tension that the line carries. It minimises, over the changes y_i of the displacements,
+// The implicit bending of a whole line of particles (docs/solvers.md, "Bending along lines"), together with the tension
+// that the line carries. It minimises, over the changes y_i of the displacements,
 //   sum y_i^2/(2 w_i) + sum g_i/2 |e_i + t_i|^2 + sum kappa_i/2 |c_i + t_i - t_(i-1)|^2,   t_i = y_(i+1) - y_i,
 // where e are the edges, c_i = e_i - e_(i-1) the second differences, g and kappa the geometric and the bending
 // stiffness in units of the inner particle's mass over the substep's length squared. Eliminated as bands are, this
@@ -17,26 +17,26 @@ struct BentLine {
     vec3 pull, moment;
 };
 
-/// The line before its first particle has no energy.
+/// Returns the line before its first particle, which has no energy.
 SHARED BentLine unbent_line() {
     return BentLine(0.0f, 0.0f, 0.0f, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
 }
 
-/// An eliminated particle, whose t = turn + by_turn t_next + by_shift y_next, and the line that includes it.
+/// A particle that was eliminated, with t = turn + by_turn t_next + by_shift y_next, and the line that includes it.
 struct BentParticle {
     vec3 turn;
     float by_turn, by_shift;
     BentLine line;
 };
 
-/// kappa of the element of two springs; it is `bend` where both have their whole share.
+/// Returns kappa of the element of two springs; it is `bend` where both have their full share.
 SHARED float element_bend(float bend, float share, float share_after) {
     precise float element = bend * bend_share(share, share_after);
     return element;
 }
 
-/// Eliminates the next particle, which lies between the eliminated edges and `edge`. `bend` is that of the element of
-/// `edge` and the one after it, 0 at the line's end, and `difference` what its c has more than at rest.
+/// Eliminates the next particle, which lies between the eliminated edges and `edge`. `bend` belongs to the element of
+/// `edge` and the edge after it, 0 at the line's end; `difference` is the element's c minus c at rest.
 SHARED BentParticle eliminate_bent(BentLine line, vec3 edge, float stiffness, vec3 difference, float bend,
                                    float weight) {
     precise float turning = line.turning + stiffness;

@@ -1,6 +1,6 @@
-// Places a drawn vertex of a cloth. Its index alone says which: the particles come first, then, on a `cut` cloth,
-// the vertices on cut springs, each placed from particles of its own side. The includer has `push` (ClothPush) and the
-// position image.
+// Places a vertex of a cloth for drawing. Its index alone identifies it: the particles come first, then, on a `cut`
+// cloth, the vertices on cut springs, each placed from particles of its own side. The includer has `push` (ClothPush)
+// and the position image.
 ivec2 particle_texel(uint particle) { return ivec2(particle % push.grid.x, particle / push.grid.x); }
 
 vec3 particle_position(uint particle) { return imageLoad(position, particle_texel(particle)).xyz; }

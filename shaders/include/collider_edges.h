@@ -1,10 +1,10 @@
-// This header handles contact of the cloth between its particles with edges and corners of boxes and meshes, which the
-// contact of particles (colliders.h) leaves alone. An edge of the cloth and an edge of the box, or a triangle and a
-// corner, that have passed each other are led apart along the one direction in which that is the least (separating
-// axes), by shares that the weights of the touching point in its triangle give. Each particle takes from every triangle
-// around it the most that any asks of it in a direction, so that neighbours that ask the same are not counted twice.
-// With a mesh, whose edges are known by its field of distances alone, the planes that touch it where it is nearest to
-// the corners of a triangle say where it has an edge or a corner between them.
+// Contact of the cloth's edges and triangles with edges and corners of boxes and meshes, which the contact of particles
+// (colliders.h) does not handle. An edge of the cloth and an edge of the box, or a triangle and a corner, that have
+// passed each other are moved apart along the direction in which the least motion is needed (separating axes), by
+// shares that follow from the touching point's weights in its triangle. A particle takes, for each direction, only the
+// largest motion that a triangle around it asks for, so that neighbours that ask for the same are not counted twice.
+// The edges of a mesh are known by its field of distances alone; there the planes that touch the mesh nearest to the
+// corners of a triangle show whether an edge or a corner lies between them.
 #ifndef DRAPE_COLLIDER_EDGES_H
 #define DRAPE_COLLIDER_EDGES_H
 
@@ -21,10 +21,10 @@ struct CutCorner {
     float weight;       // relative inverse mass
 };
 
-/// The least way out of the box along one direction.
+/// The shortest way out of the box along one direction.
 struct BoxCut {
     vec3 normal;  // local, outward, unit length
-    float depth;  // m; outside when not > 0
+    float depth;  // m; not > 0: outside
     vec3 shares;  // weights of the corners at the touching point
 };
 
@@ -48,17 +48,17 @@ SHARED float past_all_faces(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     return smaller_of(x, smaller_of(y, z));
 }
 
-/// Returns how deep (m) a particle is inside, 0 outside; contact of particles moves it by as much.
+/// Returns how deep (m) a particle is inside, 0 outside; contact of particles moves it by this depth.
 SHARED float inside_faces(vec3 a, vec3 half_extents) {
     float depth = past_all_faces(a, a, a, half_extents);
     return depth > 0.0f ? depth : 0.0f;
 }
 
-/// Returns how far an edge of the cloth is past an edge of the box, seen along the latter; `from` and `along` describe
-/// the cloth's edge. xy: direction, z: depth, m, negative outside, w: share of the edge's far end.
+/// Returns how far an edge of the cloth is past an edge of the box, as seen along the latter; `from` and `along`
+/// describe the cloth's edge. xy: direction; z: depth, m, negative outside; w: share of the edge's far end.
 SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
     precise float squared = along.x * along.x + along.y * along.y;
-    // An edge that is seen as a point leaves the verdict to the other two directions.
+    // An edge that looks like a point from here is judged by the other two directions.
     if (!(squared > 0.0f)) return vec4(0.0f, 0.0f, 3.0e38f, 0.0f);
     precise float side = along.x * from.y - along.y * from.x;
     precise float reach = half_extents.x * abs(along.y) + half_extents.y * abs(along.x);
@@ -73,7 +73,8 @@ SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
     return vec4(normal.x, normal.y, depth, share);
 }
 
-/// Cuts an edge by the box's edges alone; where an end of it is as far inside, contact of particles leads it out.
+/// Finds how the box's edges alone cut an edge; where an end of the edge is as far inside, contact of particles leads
+/// it out.
 SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
     float known = larger_of(inside_faces(a, half_extents), inside_faces(b, half_extents));
     precise vec3 along = b - a;
@@ -88,14 +89,15 @@ SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
     return BoxCut(normal, depth, vec3(rest, share, 0.0f));
 }
 
-/// A corner of the box past a triangle's plane counts as under it up to this far beside it, in the triangle's weights.
-/// Under an edge between two triangles it would else slip through between them: now contact leads that edge aside, and
+/// A corner of the box past a triangle's plane counts as under the triangle up to this far beside it, in units of the
+/// triangle's weights. Otherwise it would slip through under an edge between two triangles; with the margin, contact
+/// moves that edge aside, and the corner is then under one of the triangles.
 /// the corner is under one of them.
 const float corner_margin = 0.2f;
 
 SHARED float not_below_zero(float x) { return x > 0.0f ? x : 0.0f; }
 
-/// Cuts a triangle by the box's corner.
+/// Finds how a corner of the box cuts a triangle.
 SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     float least = past_all_faces(a, b, c, half_extents);
     precise vec3 ab = b - a;
@@ -120,20 +122,20 @@ SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     return BoxCut(normal, depth, shares);
 }
 
-/// Returns the point of a triangle at which a cut touches it.
+/// Returns the point of a triangle at which the collider touches it.
 SHARED vec3 touching_point(BoxCut cut, CutCorner a, CutCorner b, CutCorner c) {
     precise vec3 touching = a.local * cut.shares.x + b.local * cut.shares.y + c.local * cut.shares.z;
     return touching;
 }
 
-/// Returns `taken` (m, local), by which the triangle's first corner is moved already, with what a cut asks beyond it.
-/// `surface`: displacement of the collider where it touches, m, world frame.
+/// Returns `taken` (m, local), by which the triangle's first corner has already been moved, extended by what a cut asks
+/// for beyond it. `surface`: displacement of the collider at the touching point, m, world frame.
 SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
                      vec3 surface, float recovery) {
     precise float mobility = a.weight * cut.shares.x * cut.shares.x + b.weight * cut.shares.y * cut.shares.y +
                              c.weight * cut.shares.z * cut.shares.z;
     if (!(cut.depth > 0.0f) || !(mobility > 0.0f)) return taken;
-    // As in collider_contact, the depth that was there when the substep began is given back slowly.
+    // As in collider_contact, a depth that existed when the substep began is resolved slowly.
     precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
     precise vec3 relative = motion - surface;
     precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
@@ -153,7 +155,7 @@ SHARED vec3 with_box_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCo
     return with_cut(taken, cut, a, b, c, collider, surface, recovery);
 }
 
-/// Returns `taken` with all that a triangle asks of its first corner.
+/// Returns `taken` extended by everything that a triangle asks of its first corner.
 SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider, float recovery) {
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     taken = with_box_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
@@ -169,8 +171,8 @@ SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
     return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
 }
 
-/// The plane that touches a mesh where that is nearest to a corner of a triangle: normal (unit, outward, local) and the
-/// corner's distance from it, m, negative inside.
+/// Returns the plane that touches a mesh where the mesh is nearest to a triangle's corner: normal (unit, outward,
+/// local) and the corner's distance from the plane, m, negative inside.
 SHARED vec4 touching_plane(vec3 local, ColliderRecord mesh WITH_FIELDS) {
     SurfacePoint surface = mesh_surface(mesh, local, 1.0f FIELDS);
     return vec4(surface.normal.x, surface.normal.y, surface.normal.z, surface.distance);
@@ -181,17 +183,19 @@ SHARED vec3 normal_of(vec4 plane) { return vec3(plane.x, plane.y, plane.z); }
 /// Returns how deep (m) a corner is inside, 0 outside.
 SHARED float inside_plane(vec4 plane) { return plane.w < 0.0f ? -plane.w : 0.0f; }
 
-/// Planes lead out along their mean; where they are all steeper against it than this cosine the mesh is too sharp or
-/// too thin for its samples, and is left alone.
+/// Planes lead out along their mean normal. If all of them are steeper against it than this cosine, the mesh is too
+/// sharp or too thin for its samples, and is ignored here.
 const float least_cosine = 0.3f;
 
-/// Returns a cut at `touching`, which is `depth` (m) below each of the planes that were seen from the corners. `mean`
-/// is their normals' by the shares with which they hold each other; particles alone lead out of `known`.
+/// Returns a cut at `touching`, which is `depth` (m) below each of the planes found at the corners. `mean` is the mean
+/// of their normals, weighted by the shares in which they balance; contact of particles alone resolves the depth
+/// `known`.
 SHARED BoxCut cut_of_planes(vec3 touching, float depth, vec3 mean, vec3 shares, float known,
                             ColliderRecord mesh WITH_FIELDS) {
     precise float cosine = sqrt(ordered_dot(mean, mean));
     if (!(depth > known) || !(cosine > least_cosine)) return no_cut();
-    // Planes overrate how deep a point is in what is convex, samples underrate it by less than half their spacing.
+    // Planes overestimate the depth of a point in a convex shape; samples underestimate it by less than half their
+    // spacing.
     precise float blunt = 0.5f * FIELD_TEXEL(int(mesh.way_out.x)).w;
     precise float seen = -mesh_surface(mesh, touching, 1.0f FIELDS).distance;
     precise float most = seen + blunt;
@@ -202,7 +206,7 @@ SHARED BoxCut cut_of_planes(vec3 touching, float depth, vec3 mean, vec3 shares, 
     return BoxCut(normal, way, shares);
 }
 
-/// Cuts an edge by an edge of the mesh, into which it leads from both of its ends.
+/// Finds how an edge of the mesh cuts an edge that leads into the mesh from both of its ends.
 SHARED BoxCut edge_in_mesh(vec3 a, vec3 b, vec4 at_a, vec4 at_b, ColliderRecord mesh WITH_FIELDS) {
     precise vec3 along = b - a;
     float fall = -ordered_dot(normal_of(at_a), along);
@@ -219,7 +223,7 @@ SHARED BoxCut edge_in_mesh(vec3 a, vec3 b, vec4 at_a, vec4 at_b, ColliderRecord 
                          larger_of(inside_plane(at_a), inside_plane(at_b)), mesh FIELDS);
 }
 
-/// Cuts a triangle by a corner of the mesh, into which it leads from all three of its own.
+/// Finds how a corner of the mesh cuts a triangle that leads into the mesh from all three of its corners.
 SHARED BoxCut triangle_in_mesh(vec3 a, vec3 b, vec3 c, vec4 at_a, vec4 at_b, vec4 at_c,
                                ColliderRecord mesh WITH_FIELDS) {
     precise vec3 ab = b - a;
@@ -228,12 +232,12 @@ SHARED BoxCut triangle_in_mesh(vec3 a, vec3 b, vec3 c, vec4 at_a, vec4 at_b, vec
         vec3(ordered_dot(normal_of(at_a), ab), ordered_dot(normal_of(at_b), ab), ordered_dot(normal_of(at_c), ab));
     vec3 to_c =
         vec3(ordered_dot(normal_of(at_a), ac), ordered_dot(normal_of(at_b), ac), ordered_dot(normal_of(at_c), ac));
-    // With these weights the planes' mean does not fall along the triangle.
+    // With these weights the planes' mean has no slope along the triangle.
     vec3 weights = ordered_cross(to_b, to_c);
     precise float sum = weights.x + weights.y + weights.z;
     precise vec3 held = weights / sum;
     if (!(held.x > 0.0f) || !(held.y > 0.0f) || !(held.z > 0.0f)) return no_cut();
-    // The planes have the same height where these two lines meet, in weights of b and c.
+    // The planes have equal height where these two lines meet, in weights of b and c.
     precise vec2 first = vec2(to_b.x - to_b.y, to_c.x - to_c.y);
     precise vec2 second = vec2(to_b.x - to_b.z, to_c.x - to_c.z);
     precise float ends_first = at_b.w - to_b.y - at_a.w;
@@ -250,13 +254,13 @@ SHARED BoxCut triangle_in_mesh(vec3 a, vec3 b, vec3 c, vec4 at_a, vec4 at_b, vec
     return cut_of_planes(touching, depth, mean, vec3(of_a, of_b, of_c), known, mesh FIELDS);
 }
 
-/// The mesh itself, not grown as contact of particles takes it.
+/// Returns the mesh itself, without the growth that contact of particles applies.
 SHARED ColliderRecord true_mesh(ColliderRecord collider) {
     collider.way_out.y = 0.0f;
     return collider;
 }
 
-/// A mesh has no side by which cloth leaves it.
+/// Returns the mesh without a way out, since cloth leaves a mesh at the nearest surface.
 SHARED ColliderRecord without_way_out(ColliderRecord collider) {
     collider.way_out = vec4(0.0f, 0.0f, 0.0f, collider.way_out.w);
     return collider;
@@ -264,14 +268,14 @@ SHARED ColliderRecord without_way_out(ColliderRecord collider) {
 
 const int edges_around_particle = 6;
 
-/// The other end of edge k (0..5) around a particle, relative to it.
+/// Returns the other end of edge k (0..5) around a particle, relative to it.
 SHARED ivec2 edge_around(int k) {
     if (k < 2) return ivec2(k == 0 ? 1 : -1, 0);
     if (k < 4) return ivec2(0, k == 2 ? 1 : -1);
     return ivec2(k == 4 ? 1 : -1, k == 4 ? -1 : 1);
 }
 
-/// Returns whether an edge leads from its first end below the plane there, without which nothing cuts it.
+/// Returns whether an edge leads from its first end below the touching plane there; otherwise nothing can cut it.
 SHARED bool leads_below(vec3 a, vec3 b, vec4 at_a) {
     precise vec3 along = b - a;
     return -ordered_dot(normal_of(at_a), along) > at_a.w;
@@ -291,7 +295,8 @@ SHARED vec3 with_mesh_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutC
     return with_cut(taken, cut, a, b, c, without_way_out(collider), surface, recovery);
 }
 
-/// Returns `taken` with all that a triangle which meets a mesh asks of its first corner, whose touching plane is given.
+/// Returns `taken` extended by everything that a triangle in contact with a mesh asks of its first corner, whose
+/// touching plane is given.
 SHARED vec3 with_mesh_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 at_a, ColliderRecord collider,
                                float recovery WITH_FIELDS) {
     if (!leads_below(a.local, b.local, at_a) && !leads_below(a.local, c.local, at_a)) return taken;
@@ -313,8 +318,8 @@ SHARED bool near_mesh(vec3 local, vec4 plane, ColliderRecord collider, float rea
     return beyond.x < reach && beyond.y < reach && beyond.z < reach && abs(plane.w) < reach;
 }
 
-/// Displacement of a particle that a collider has moved by `taken` (m, local), with friction. `surface`: the collider's
-/// own displacement there, m, world frame.
+/// Returns the displacement of a particle after a collider has moved it by `taken` (m, local), with friction.
+/// `surface`: the collider's own displacement there, m, world frame.
 SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 surface, ColliderRecord collider, float friction) {
     float squared = ordered_dot(taken, taken);
     if (!(squared > 0.0f)) return displacement;

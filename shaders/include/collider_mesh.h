@@ -8,7 +8,7 @@ layout(constant_id = 0) const int collider_kind = kind_plane;
 layout(constant_id = 1) const int round_columns = most_round_columns;
 layout(set = 0, binding = 1, std430) readonly buffer Colliders { ColliderInstance colliders[]; };
 
-layout(constant_id = 24) const bool is_mesh = false;  // its triangles are those of a file
+layout(constant_id = 24) const bool is_mesh = false;  // its triangles come from a file
 layout(set = 0, binding = 2, std430) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
 
 #if COLLIDER_KINDS != 6

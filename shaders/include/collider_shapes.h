@@ -1,5 +1,5 @@
-// Points on the colliders' true shapes, in local coordinates: pictures draw triangles between them, and exported meshes
-// have them as vertices.
+// Points on the colliders' true shapes, in local coordinates: the corners of the triangles in pictures, and the
+// vertices of exported meshes.
 #ifndef DRAPE_COLLIDER_SHAPES_H
 #define DRAPE_COLLIDER_SHAPES_H
 
@@ -21,13 +21,13 @@ struct MeshVertex {
     vec3 normal;  // any length
 };
 
-/// Corner (0 or 1 along each axis) of vertex 0..5 of a quad's two triangles, counter-clockwise.
+/// Returns the corner (0 or 1 along each axis) of vertex 0..5 of a quad's two triangles, counter-clockwise.
 SHARED ivec2 quad_corner(int vertex) {
     return ivec2(vertex == 1 || vertex == 2 || vertex == 4 ? 1 : 0, vertex == 2 || vertex == 4 || vertex == 5 ? 1 : 0);
 }
 
-/// Returns at which segment around (x) and from pole to pole (y) a vertex of a round mesh is. Seen from outside the
-/// triangles run counter-clockwise, though rows are counted downwards.
+/// Returns where a vertex of a round mesh is, in segments around (x) and from pole to pole (y). Seen from outside the
+/// triangles are counter-clockwise, though rows are counted downwards.
 SHARED ivec2 round_corner(int columns, int vertex) {
     int quad = vertex / 6;
     ivec2 corner = quad_corner(vertex % 6);
@@ -39,7 +39,7 @@ SHARED vec3 round_direction(float polar, float azimuth) {
     return vec3(sin(polar) * sin(azimuth), cos(polar), sin(polar) * cos(azimuth));
 }
 
-/// A round mesh has so many columns, and half as many rows.
+/// The mesh of an ellipsoid has `columns` columns and half as many rows.
 SHARED MeshVertex ellipsoid_vertex(vec3 radii, ivec2 corner, int columns) {
     const float pi = 3.14159265358979f;
     float polar = pi * float(corner.y) / float(columns / 2);
@@ -48,7 +48,8 @@ SHARED MeshVertex ellipsoid_vertex(vec3 radii, ivec2 corner, int columns) {
     return MeshVertex(unit * radii, unit / radii);
 }
 
-/// A capsule's rows are the upper ball from its pole to where the side touches it, the side in one step, and the lower.
+/// The rows of a capsule are the upper ball from its pole to where the side touches it, the side in one step, and the
+/// lower ball.
 SHARED MeshVertex capsule_vertex(vec3 size, ivec2 corner, int columns) {
     const float pi = 3.14159265358979f;
     int rows = columns / 2;
@@ -73,7 +74,7 @@ SHARED MeshVertex box_vertex(vec3 half_extents, int vertex) {
     return MeshVertex(vec3(along, across, side) * half_extents, vec3(0.0f, 0.0f, side));
 }
 
-/// Local y is the plane's normal; the square's centre is at `center`, local x and z.
+/// Local y is the plane's normal; the square's centre is at `center`, in local x and z.
 SHARED MeshVertex plane_vertex(float half_side, vec2 center, int vertex) {
     ivec2 corner = quad_corner(vertex);
     float x = center.x + (float(corner.x) * 2.0f - 1.0f) * half_side;

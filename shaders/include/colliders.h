@@ -1,5 +1,5 @@
-// This header holds the signed distances of the collider kinds in their local frames, positive outside, each with the
-// outward normal of the closest surface point; and the contact with friction.
+// The signed distances to each kind of collider in its local frame, positive outside, each with the outward normal of
+// the closest surface point; and contact with friction.
 #ifndef DRAPE_COLLIDERS_H
 #define DRAPE_COLLIDERS_H
 
@@ -16,7 +16,7 @@ struct SurfacePoint {
     float distance;  // m, negative inside
 };
 
-// The fields of meshes (shared/collider_types.h). A shader of a scene without meshes needs none.
+// The fields of meshes (shared/collider_types.h). The shader of a scene without meshes needs none.
 #ifdef __cplusplus
 #define WITH_FIELDS , const vec4* fields
 #define FIELDS , fields
@@ -25,7 +25,8 @@ const bool has_meshes = true;
 #else
 #define WITH_FIELDS
 #define FIELDS
-// The list is sorted by kind, and these say where each kind ends: loops over kinds that a scene lacks fold away.
+// The list is sorted by kind, and these constants say where each kind ends, so that loops over kinds that a scene lacks
+// are removed.
 layout(constant_id = 0) const int planes_end = 0;
 layout(constant_id = 1) const int spheres_end = 0;
 layout(constant_id = 2) const int boxes_end = 0;
@@ -70,7 +71,7 @@ SHARED SurfacePoint sphere_surface(vec3 local, float radius) {
     return SurfacePoint(normal, distance);
 }
 
-/// Outside, the surface point is the nearest of the box; inside, it is on the nearest face.
+/// From outside, the nearest surface point of the whole box is taken; from inside, the nearest face decides.
 SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
     vec3 side = vec3(local.x < 0.0f ? -1.0f : 1.0f, local.y < 0.0f ? -1.0f : 1.0f, local.z < 0.0f ? -1.0f : 1.0f);
     precise vec3 beyond = local * side - half_extents;
@@ -78,7 +79,7 @@ SHARED SurfacePoint box_surface(vec3 local, vec3 half_extents) {
         precise vec3 outside = vec3(beyond.x > 0.0f ? beyond.x : 0.0f, beyond.y > 0.0f ? beyond.y : 0.0f,
                                     beyond.z > 0.0f ? beyond.z : 0.0f);
         precise float distance = sqrt(ordered_dot(outside, outside));
-        if (distance > 0.0f) {  // else it underflows: on the surface, the nearest face decides
+        if (distance > 0.0f) {  // otherwise it underflows: for a point on the surface, the nearest face decides
             precise vec3 normal = outside * side / distance;
             return SurfacePoint(normal, distance);
         }
@@ -110,7 +111,8 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
     precise vec3 starts = weighted - beyond_one;  // where each term alone is 1
     float u = starts.x > starts.y ? starts.x : starts.y;
     u = starts.z > u ? starts.z : u;
-    // Compilers do not know this bound; lavapipe would unroll 24 rounds and run all of them for every particle.
+    // Compilers do not know that this is bounded; lavapipe would unroll 24 rounds and run all of them for every
+    // particle.
     int most = smallest > 0.0f ? 24 : 0;
     for (int step = 0; step < most; ++step) {
         precise vec3 shifted = beyond_one + vec3(u, u, u);
@@ -127,7 +129,7 @@ SHARED vec3 ellipsoid_foot(vec3 local, vec3 radii) {
                 local.z < 0.0f ? -foot.z : foot.z);
 }
 
-/// The normal is the surface's own at the foot point (gradient), which is good however close the point is.
+/// The normal is the gradient of the surface at the foot point, which is accurate however close the point is.
 SHARED SurfacePoint ellipsoid_surface(vec3 local, vec3 radii) {
     vec3 foot = ellipsoid_foot(local, radii);
     precise vec3 gradient = foot / (radii * radii);
@@ -142,27 +144,28 @@ SHARED bool beyond_bounds(vec3 local, vec3 radii, float reach) {
     return abs(local.x) > bound.x || abs(local.y) > bound.y || abs(local.z) > bound.z;
 }
 
-/// Capsule along y; `size`: half the distance of its ends' centres, the radius at the lower end, at the upper (m). Its
-/// side is the cone that touches both balls, along circles; there its normal leans out of the horizontal by an angle
-/// whose sine is the radii's difference over the centres' distance, and beyond the circles the surface is the ball's.
+/// Returns the surface of a capsule along y; `size`: half the distance of its ends' centres, the radius at the lower
+/// end, at the upper (m). Its side is the cone that touches both balls, along circles; there its normal leans out of
+/// the horizontal by an angle whose sine is the radii's difference over the centres' distance, and beyond the circles
+/// the surface is the ball's.
 SHARED SurfacePoint capsule_surface(vec3 local, vec3 size) {
     precise float apart = size.x + size.x;
     precise float narrowing = size.y - size.z;
-    bool has_side = abs(narrowing) < apart;  // else one ball holds the other
-    bool upper = narrowing < 0.0f;           // the ball that may be the nearest; without a side it is the larger
+    bool has_side = abs(narrowing) < apart;  // otherwise one ball contains the other
+    bool upper = narrowing < 0.0f;           // which ball may be the nearest; without a side, the larger one
     precise float above = local.y + size.x;  // height above the lower end's centre
     if (has_side) {
         precise float sine = narrowing / apart;
         precise float cosine = sqrt((1.0f - sine) * (1.0f + sine));
         precise float from_axis = sqrt(local.x * local.x + local.z * local.z);
-        precise float along = above * cosine - from_axis * sine;  // place along the side, from the lower circle
+        precise float along = above * cosine - from_axis * sine;  // position along the side, from the lower circle
         precise float side = apart * cosine;
         if (along > 0.0f && along < side && from_axis > 0.0f) {
             precise vec3 normal = vec3(local.x / from_axis * cosine, sine, local.z / from_axis * cosine);
             precise float distance = from_axis * cosine + above * sine - size.y;
             return SurfacePoint(normal, distance);
         }
-        if (along > 0.0f && along < side) {  // on the axis every direction is as near
+        if (along > 0.0f && along < side) {  // on the axis all directions are equally near
             precise float distance = above * sine - size.y;
             return SurfacePoint(vec3(cosine, sine, 0.0f), distance);
         }
@@ -179,7 +182,7 @@ struct Contact {
     float depth;  // m; 0 when there was no contact
     vec3 normal;  // of the surface, in the world frame
     vec4 grip;    // as in Support
-    vec3 led;     // part of the displacement that leads it out of an overlap, which is no velocity, m
+    vec3 led;     // the part of the displacement that leads the particle out of an overlap, which is no velocity, m
 };
 
 SHARED vec3 moved_position(vec3 start, vec3 displacement) {
@@ -187,14 +190,14 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
     return now;
 }
 
-/// Returns how deep contact leaves a particle that was `before` deep when the substep began, 0 where it was outside. An
-/// overlap is resolved by `recovery` (m) a substep, so that it does not become speed.
+/// Returns the depth at which contact leaves a particle that was at depth `before` when the substep began; 0 if it was
+/// outside. An overlap is resolved by `recovery` (m) per substep, so that it does not become speed.
 SHARED float kept_depth(float before, float recovery) {
     precise float kept = before - recovery;
     return kept > 0.0f ? kept : 0.0f;
 }
 
-/// Returns how much of a contact's depth leads a particle out of the overlap that it began the substep with.
+/// Returns how much of a contact's depth leads a particle out of the overlap in which it began the substep.
 SHARED float led_out(float depth, float before, float recovery) {
     float overlap = before > 0.0f ? before : 0.0f;
     float led = overlap < recovery ? overlap : recovery;
@@ -206,13 +209,13 @@ SHARED vec3 led_sum(vec3 a, vec3 b) {
     return sum;
 }
 
-/// Returns the displacement that is a particle's velocity, where it starts that much farther on the way that leads it.
+/// Returns the displacement that is a particle's velocity, if its start is shifted by the displacement that leads it.
 SHARED vec3 displacement_of_own(vec3 displacement, vec3 led) {
     precise vec3 own = displacement - led;
     return own;
 }
 
-/// Signed distance and normal of a shape other than the plane, in the shape's own frame.
+/// Returns the signed distance and normal of a shape other than the plane, in the shape's own frame.
 SHARED SurfacePoint shape_surface(int kind, vec3 local, vec3 size) {
     if (kind == kind_sphere) return sphere_surface(local, size.x);
     if (kind == kind_box) return box_surface(local, size);
@@ -226,8 +229,8 @@ SHARED SurfacePoint plane_surface(ColliderRecord collider, vec3 world) {
     return SurfacePoint(normal, ordered_dot(from_foot, normal));
 }
 
-/// Signed distance and normal of the collider's surface point nearest to a particle at `world`, which in the collider's
-/// frame is `local`. The normal of a plane is in the world frame, else in the local one.
+/// Returns the signed distance and normal of the collider's surface point nearest to a particle at `world`, which is
+/// `local` in the collider's frame. The normal of a plane is in the world frame, others are in the local one.
 SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 world, vec3 local WITH_FIELDS) {
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
     if (has_meshes)
@@ -236,12 +239,12 @@ SHARED SurfacePoint collider_surface(int kind, ColliderRecord collider, vec3 wor
     return plane_surface(collider, world);
 }
 
-/// Returns whether cloth started in a box, which it then leaves by one face.
+/// Returns whether cloth started in a box, which it then leaves through one face.
 SHARED bool has_way_out(ColliderRecord collider) {
     return collider.way_out.x != 0.0f || collider.way_out.y != 0.0f || collider.way_out.z != 0.0f;
 }
 
-/// The face by which cloth leaves a box that it started in, for a point at `local`.
+/// Returns the face through which cloth leaves a box in which it started, for a point at `local`.
 SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     vec3 normal = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
@@ -250,8 +253,8 @@ SHARED SurfacePoint way_out_surface(ColliderRecord collider, vec3 local) {
     return SurfacePoint(normal, distance);
 }
 
-/// Returns how far it is from a shape's surface to its middle, m; of a plane it is not known, and a mesh may be as thin
-/// as it likes somewhere.
+/// Returns the distance from a shape's surface to its middle, m. A plane has no middle, and a mesh may be arbitrarily
+/// thin.
 SHARED float least_half_width(int kind, vec3 size) {
     if (has_meshes)
         if (kind == kind_mesh) return 0.0f;
@@ -260,14 +263,15 @@ SHARED float least_half_width(int kind, vec3 size) {
     return kind == kind_sphere ? size.x : kind == kind_capsule ? ends : least;
 }
 
-/// Returns how far a particle moves at most relative to a collider that it meets, m; `length`: by its displacement,
-/// `motion`: by the surface, for which the host says 1e15 where it turns by more than a fifth of a radian.
+/// Returns how far a particle may move relative to a collider that it meets, m; `length`: by its displacement;
+/// `motion`: by the surface, for which the host passes 1e15 where it turns by more than a fifth of a radian.
 SHARED float most_way(float length, float motion) {
     precise float way = (length + motion) * 1.25f;
     return way;
 }
 
-/// Returns whether a particle's way is so long that its end does not say from which side it came. A plane has but one.
+/// Returns whether a particle moves so far that its end does not show from which side it came. A plane has only one
+/// side.
 SHARED bool goes_far(int kind, vec3 size, float length, float motion, float thickness) {
     precise float middle = least_half_width(kind, size) + thickness;
     return kind != kind_plane && most_way(length, motion) > middle;
@@ -286,7 +290,8 @@ SHARED float length_of(vec3 v) {
 
 SHARED vec3 size_of(ColliderRecord collider) { return vec3(collider.shape.x, collider.shape.y, collider.shape.z); }
 
-/// Returns whether bounds tell, with room for all rounding, that a collider is too far to move a point by contact.
+/// Returns whether bounds show, with a margin for all rounding, that a collider is too far away to move a point by
+/// contact.
 SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thickness) {
     vec3 local = local_point(collider, now);
     vec3 size = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
@@ -306,7 +311,8 @@ SHARED bool beyond_reach(int kind, ColliderRecord collider, vec3 now, float thic
     return beyond_bounds(local, bound, reach);
 }
 
-/// Radius of a ball about a collider's centre that holds all of it, m; a plane's holds everything.
+/// Returns the radius of a ball about a collider's centre that contains all of it, m; for a plane it contains
+/// everything.
 SHARED float bounding_radius(int kind, vec3 size) {
     float widest = size.y > size.z ? size.y : size.z;
     precise float half_length = size.x + widest;
@@ -339,13 +345,13 @@ SHARED bool near_ball(vec4 ball, vec3 lower, vec3 upper, float thickness) {
     return !(ordered_dot(off, off) > squared);
 }
 
-/// The difference of two rows of poses.
+/// Returns a row of the pose when the substep began, from the row now and its change.
 SHARED vec4 row_before(vec4 row, vec4 change) {
     precise vec4 before = vec4(row.x - change.x, row.y - change.y, row.z - change.z, row.w - change.w);
     return before;
 }
 
-/// Returns the collider as the substep began.
+/// Returns the collider as it was when the substep began.
 SHARED ColliderRecord at_start(ColliderRecord collider) {
     collider.pose_x = row_before(collider.pose_x, collider.change_x);
     collider.pose_y = row_before(collider.pose_y, collider.change_y);
@@ -353,18 +359,18 @@ SHARED ColliderRecord at_start(ColliderRecord collider) {
     return collider;
 }
 
-/// Returns where a point was in the frame of the collider as the substep began.
+/// Returns where a point was in the collider's frame when the substep began.
 SHARED vec3 local_at_start(ColliderRecord collider, vec3 start) { return local_point(at_start(collider), start); }
 
-/// Returns whether a collider is a mesh that deforms, which its field says.
+/// Returns whether a collider is a mesh that deforms, as its field says.
 SHARED bool is_deforming(int kind, ColliderRecord collider WITH_FIELDS) {
     if (has_meshes)
         if (kind == kind_mesh) return FIELD_TEXEL(int(collider.way_out.x) + 1).w > 0.0f;
     return false;
 }
 
-/// Returns how far the surface nearest to `local` of one that deforms moved during the substep, beside what its pose
-/// moved, world frame, m.
+/// Returns how far the surface of a mesh that deforms moved near `local` during the substep, in addition to the motion
+/// of its pose, world frame, m.
 SHARED vec3 deformation(ColliderRecord collider, vec3 local WITH_FIELDS) {
     if (!has_meshes) return vec3(0.0f, 0.0f, 0.0f);
     int head = int(collider.way_out.x);
@@ -373,26 +379,27 @@ SHARED vec3 deformation(ColliderRecord collider, vec3 local WITH_FIELDS) {
     return world_direction(at_start(collider), moved);
 }
 
-/// How a particle comes into a shape.
+/// How a particle enters a shape.
 struct WayIn {
     float before;     // m: how deep it was where it started, negative outside
-    vec3 at;          // where it starts or, if it goes far, comes in; local frame
-    SurfacePoint by;  // nearest to there
+    vec3 at;          // where it starts or, if it goes far, enters; local frame
+    SurfacePoint by;  // the surface point nearest to `at`
     bool comes_in;
-    float share;  // of the substep that is over then
+    float share;  // of the substep that is over at that time
 };
 
-/// Returns the surface that a particle meets on its way: of a mesh that deforms, as a share of the substep leaves it.
+/// Returns the surface that a particle meets on its way; a mesh that deforms is taken after this share of the substep.
 SHARED SurfacePoint surface_on_way(int kind, ColliderRecord collider, vec3 world, vec3 local, float share WITH_FIELDS) {
     if (has_meshes)
         if (kind == kind_mesh) return mesh_surface(collider, local, share FIELDS);
     return collider_surface(kind, collider, world, local FIELDS);
 }
 
-/// Follows a particle from `from` along `way` if it goes far. Of a shape without dents the distance is convex along a
-/// line, so Newton's rounds come to the surface from outside, or see that the line misses it. Along a mesh's dents each
-/// round goes as far as nothing can be nearer (sphere tracing; Hart, "Sphere Tracing"), to a hundredth of the
-/// thickness; towards one that deforms (`deforms`) it goes as if all of it came near with its fastest part.
+/// Follows a particle from `from` along `way` if it goes far. For a shape without dents the distance is convex along a
+/// line, so Newton's iteration approaches the surface from outside, or shows that the line misses it. In a mesh's dents
+/// each round advances by the distance within which there is no surface (sphere tracing; Hart, "Sphere Tracing"), to a
+/// hundredth of the thickness. Towards a mesh that deforms (`deforms`) it advances as if all of the surface approached
+/// with the speed of its fastest part.
 SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, vec3 way, float thickness, bool far,
                     bool deforms WITH_FIELDS) {
     precise float enough = kind == kind_mesh ? thickness * -0.01f : 0.0f;
@@ -420,9 +427,10 @@ SHARED WayIn way_in(int kind, ColliderRecord collider, vec3 world, vec3 from, ve
     return found;
 }
 
-/// Contact of a particle that started the substep at `start` with a collider; `depth` is by how much it is pushed.
-/// Shaders call it with a literal kind, so that each loop holds one shape's code alone. If `all_its_way`, a particle
-/// that goes far is held by the plane on which it comes in, else only where it ends counts.
+/// Returns the contact of a particle that started the substep at `start` with a collider; `depth` is how far the
+/// particle is pushed. Shaders call it with a literal kind, so that each loop contains the code of one shape alone.
+/// With `all_its_way`, a particle that goes far is stopped by the plane through which it enters; otherwise only its end
+/// counts.
 SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, vec3 displacement, float thickness,
                                 float friction, float recovery, bool all_its_way WITH_FIELDS) {
     vec3 now = moved_position(start, displacement);
@@ -437,8 +445,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     SurfacePoint found = collider_surface(kind, collider, now, local FIELDS);
     precise float inside = thickness - found.distance;
     if (!(inside > 0.0f) && !far) return none;
-    // The overlap at the substep's start is measured where the collider has carried the particle's place since; for one
-    // that deforms, as it was then.
+    // The overlap at the substep's start is measured where the collider has since carried the particle's place; for a
+    // mesh that deforms, with the form that it had then.
     bool deforms = is_deforming(kind, collider FIELDS);
     vec3 surface = surface_displacement(collider, local);
     vec3 carried = moved_position(start, surface);
@@ -464,7 +472,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
         vec3 deformed = deformation(collider, in_by.comes_in ? in_by.at : local FIELDS);
         precise vec3 with_it = surface + deformed;
         surface = with_it;
-        // The plane on which the particle came in has gone on with the surface.
+        // The plane through which the particle entered has since moved on with the surface.
         precise float gone_on = found.distance - (1.0f - in_by.share) * ordered_dot(out_of, deformed);
         if (in_by.comes_in) found = SurfacePoint(found.normal, gone_on);
     }

@@ -1,4 +1,4 @@
-// This header holds the law of contact with a collider's surface.
+// The law of contact with a collider's surface.
 #ifndef DRAPE_CONTACT_LAW_H
 #define DRAPE_CONTACT_LAW_H
 
@@ -24,7 +24,7 @@ SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, f
 
 SHARED vec3 support_normal(Support support) { return vec3(support.plane.x, support.plane.y, support.plane.z); }
 
-/// Returns the displacement that a surface leaves a particle.
+/// Returns the displacement that a surface allows a particle.
 SHARED vec3 supported(vec3 displacement, Support support) {
     vec3 normal = support_normal(support), surface = vec3(support.grip.x, support.grip.y, support.grip.z);
     precise float depth = support.plane.w - ordered_dot(normal, displacement);
@@ -32,13 +32,13 @@ SHARED vec3 supported(vec3 displacement, Support support) {
     return depth > 0.0f ? held : displacement;
 }
 
-/// Returns the way from where a particle started to where it is led.
+/// Returns the vector from where a particle started to where it is led.
 SHARED vec3 way_between(vec3 start, vec3 led) {
     precise vec3 way = led - start;
     return way;
 }
 
-/// Returns whether a way is no longer than coordinates this large are rounded by.
+/// Returns whether a displacement is no longer than the rounding of coordinates of this size.
 SHARED bool is_rounding(vec3 start, vec3 way) {
     vec3 from = vec3(abs(start.x), abs(start.y), abs(start.z)), by = vec3(abs(way.x), abs(way.y), abs(way.z));
     float farther = from.x > from.y ? from.x : from.y, longer = by.x > by.y ? by.x : by.y;

@@ -3,9 +3,9 @@
 #include "include/colliders.h"
 #include "include/skin.h"
 
-/// Records of at most this many colliders are read before anything has branched: the default device loads them once
-/// there, but anew for every particle and number by number elsewhere (docs/devices.md). Loops over them are unrolled,
-/// so that each is a handful of constants.
+/// Records of up to this many colliders are read before anything has branched: there the default device loads them
+/// once, elsewhere again for every particle and number by number (docs/devices.md). Loops over them are unrolled, so
+/// that each record is a handful of constants.
 const int early_collider_count = 8;
 ColliderRecord early_colliders[early_collider_count];
 
@@ -15,8 +15,8 @@ void read_colliders(int first) {
     }
 }
 
-/// The same records as texels. The bounds of the colliders after the early ones are read from here, which on the
-/// default device is several times as fast (docs/devices.md).
+/// The same records as texels. The bounds of the colliders after the early ones are read here, which on the default
+/// device is several times as fast (docs/devices.md).
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer collider_texels;
 const int collider_texel_count = 8, collider_shape_texel = 6, collider_motion_texel = 7;  // texels of a record
 
@@ -33,13 +33,14 @@ int kind_of_collider(int i) {
                                 : kind_capsule;
 }
 
-/// Ball about collider i, counted from `first`, that holds where a particle ends that meets it: centre and radius, m,
-/// less the thickness. `length`: what the particle moves at most; below 0 if only its end counts.
+/// Returns a ball about collider i, counted from `first`, that contains the end of any particle that meets the
+/// collider: centre and radius, m, without the thickness. `length`: how far the particle moves at most; below 0 if only
+/// its end counts.
 vec4 collider_ball(int first, int i, float length, float thickness) {
     int texel = (first + i) * collider_texel_count, kind = kind_of_collider(i);
     vec3 size = imageLoad(collider_texels, texel + collider_shape_texel).xyz;
     float motion = imageLoad(collider_texels, texel + collider_motion_texel).w;
-    // Where the cloth is thinner, shorter ways are long (way_reach).
+    // Where the cloth is thinner, a shorter motion already counts as far (way_reach).
     bool far = length >= 0.0f && goes_far(kind, size, length, motion, has_skin ? 0.0f : thickness);
     precise float behind = (most_way(length, motion) + thickness) * 2.0f;
     float reach = far ? behind : thickness;
@@ -53,7 +54,7 @@ vec4 collider_ball(int first, int i, float length, float thickness) {
                 imageLoad(collider_texels, texel + 2).w, radius);
 }
 
-layout(constant_id = 18) const bool leaves_out = true;  // whether colliders that are out of reach are left out
+layout(constant_id = 18) const bool leaves_out = true;  // skip colliders that are out of reach
 
 /// Returns the next collider, from the i-th on, that a particle may meet; `end` if there is none.
 int next_near(int first, int i, int end, vec3 start, vec3 displacement, float thickness, bool all_its_way) {
@@ -85,7 +86,7 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
         }                                                                                                         \
     }
 
-/// Returns whether a particle that ends at a point may meet one of the early colliders; if not, they leave it alone.
+/// Returns whether a particle that ends at a point may meet one of the early colliders; if not, none of them moves it.
 bool near_early(vec3 now, float length, float thickness) {
     bool near = false;
     EACH_EARLY(NEAR, kind_plane, 0, planes_end)
@@ -99,10 +100,10 @@ bool near_early(vec3 now, float length, float thickness) {
     return near;
 }
 
-/// Contact with every collider from `first` on. With `in_turn`, each takes the displacement that those before it left;
-/// else all take the given one, and only the depth at its end counts. Without `follows`, a particle that goes so far
-/// that its way has to be followed is held by its end alone, and `went_far` becomes true. Normal and grip are the
-/// deepest one's.
+/// Returns the contact with all colliders from `first` on. With `in_turn`, each collider takes the displacement that
+/// the earlier ones left; otherwise all take the given one, and only the depth at its end counts. Without `follows`, a
+/// particle that goes so far that its path must be followed is judged by its end alone, and `went_far` becomes true.
+/// Normal and grip are those of the deepest contact.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn, bool follows, inout bool went_far) {
     float deepest = 0.0f;
@@ -110,7 +111,7 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     vec4 grip = vec4(0.0f);
     vec3 led = vec3(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
-    // The loops within these would keep lavapipe from leaving them out.
+    // The loops within these branches would prevent lavapipe from skipping them.
     if (planes_end < spheres_end) {
         CONTACTS(kind_sphere, planes_end, spheres_end)
     }

@@ -1,5 +1,5 @@
-// This header decides by signs of volumes whether a segment crosses a triangle and whether two triangles intersect. It
-// uses + - * alone, so that shader and C++ agree bit for bit. Planes are half open (a point on the plane belongs to the
+// Decides by signs of volumes whether a segment crosses a triangle, and whether two triangles intersect. It uses + - *
+// alone, so that shader and C++ agree bit for bit.
 // positive side), so a blade exactly through a particle separates it from one side only; triangles are closed along
 // their edges, so nothing slips through the seam of two.
 #ifndef DRAPE_CUT_H
@@ -7,11 +7,11 @@
 
 #include "include/vector.h"
 
-/// This fraction marks a spring that nothing crosses.
+/// The fraction of a spring that nothing crosses.
 const float not_crossed = -1.0f;
 
-/// Fraction along p -> q where it crosses triangle a b c, in [0, 1]; not_crossed when it does not. Nothing crosses a
-/// degenerate triangle.
+/// Returns the fraction along p -> q at which it crosses triangle a b c, in [0, 1]; not_crossed if it does not. Nothing
+/// crosses a degenerate triangle.
 SHARED float crossing_fraction(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
     precise vec3 edge_ab = b - a;
     precise vec3 edge_ac = c - a;
@@ -21,7 +21,7 @@ SHARED float crossing_fraction(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
     float height_p = ordered_dot(normal, from_a_to_p);
     float height_q = ordered_dot(normal, from_a_to_q);
     if ((height_p < 0.0f) == (height_q < 0.0f)) return not_crossed;
-    // The segment crosses the triangle when the line p q passes the three edges on the same side.
+    // The segment crosses the triangle if the line p q passes its three edges on the same side.
     precise vec3 along = q - p;
     precise vec3 to_a = a - p;
     precise vec3 to_b = b - p;
@@ -36,7 +36,7 @@ SHARED float crossing_fraction(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
     return fraction;
 }
 
-/// Two triangles intersect when an edge of one crosses the other; coplanar triangles do not.
+/// Returns whether two triangles intersect: an edge of one crosses the other. Coplanar triangles do not intersect.
 SHARED bool triangles_intersect(vec3 p, vec3 q, vec3 r, vec3 a, vec3 b, vec3 c) {
     return crossing_fraction(p, q, a, b, c) >= 0.0f || crossing_fraction(q, r, a, b, c) >= 0.0f ||
            crossing_fraction(r, p, a, b, c) >= 0.0f || crossing_fraction(a, b, p, q, r) >= 0.0f ||

@@ -16,7 +16,7 @@ struct CyclicRow {
     vec3 right;
 };
 
-/// The row of a particle or spring that does not exist gives x = 0.
+/// Returns the row of a particle or spring that does not exist; its solution is x = 0.
 SHARED CyclicRow no_cyclic_row() { return CyclicRow(1.0f, 0.0f, 0.0f, vec3(0.0f, 0.0f, 0.0f)); }
 
 SHARED float cyclic_diagonal(CyclicRow row) {
@@ -24,7 +24,7 @@ SHARED float cyclic_diagonal(CyclicRow row) {
     return diagonal;
 }
 
-/// A row after its two neighbours' unknowns are eliminated from it.
+/// Returns a row after its two neighbours' unknowns were eliminated from it.
 SHARED CyclicRow reduced_row(CyclicRow row, CyclicRow before, CyclicRow after) {
     precise float by_before = row.before / cyclic_diagonal(before);
     precise float by_after = row.after / cyclic_diagonal(after);
@@ -35,13 +35,14 @@ SHARED CyclicRow reduced_row(CyclicRow row, CyclicRow before, CyclicRow after) {
     return CyclicRow(shift, farther_before, farther_after, right);
 }
 
-/// x of a row that couples to nothing any more.
+/// Returns x of a row that is coupled to no other any more.
 SHARED vec3 cyclic_solution(CyclicRow row) {
     precise vec3 solution = row.right / cyclic_diagonal(row);
     return solution;
 }
 
-/// Row of a particle of the first system, between the springs before and after it, as in eliminate_particle.
+/// Returns the row of a particle in the first system, between the springs before and after it, as in
+/// eliminate_particle.
 SHARED CyclicRow particle_row(vec3 edge_before, float stiffness_before, vec3 edge_after, float stiffness_after,
                               float weight) {
     precise float before = weight * stiffness_before;
@@ -50,13 +51,14 @@ SHARED CyclicRow particle_row(vec3 edge_before, float stiffness_before, vec3 edg
     return CyclicRow(1.0f, before, after, pull);
 }
 
-/// Share of a spring's own pull on a particle that its neighbour on the line does not take over.
+/// Returns the share of a spring's own pull on a particle that its neighbour on the line does not take over.
 SHARED float turned_share(float cosine) {
     precise float left = 1.0f - abs(cosine);
     return left > 0.0f ? left : 0.0f;
 }
 
-/// Row of a spring of the second system, as in eliminate_spring, with the change of its multiplier in `right.x`.
+/// Returns the row of a spring in the second system, as in eliminate_spring, with the change of its multiplier in
+/// `right.x`.
 SHARED CyclicRow spring_row(vec3 normal_before, LineSpring spring, vec3 normal_after, float weight_first,
                             float weight_second, float share, float compression, float compliance, float tension) {
     float acting = acting_share(share, compression, spring.excess);

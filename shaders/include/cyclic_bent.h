@@ -16,29 +16,31 @@ struct BentRow {
     vec3 right;
 };
 
-/// The rows of a block.
+/// The two rows of a block.
 struct BentBlock {
     BentRow first, second;
 };
 
-/// The row of a particle that does not exist gives y = 0 to a block's first and t = 0 to its second.
+/// Returns the row of a particle that does not exist; it gives y = 0 for a block's first particle and t = 0 for its
+/// second.
 SHARED BentRow no_bent_row(bool is_second) {
     return BentRow(vec2(0.0f, 0.0f), is_second ? vec2(0.0f, 1.0f) : vec2(1.0f, 0.0f), vec2(0.0f, 0.0f),
                    vec3(0.0f, 0.0f, 0.0f));
 }
 
-/// A spring that a particle's row reads: its edge, geometric stiffness and share, all zero where there is none.
+/// A spring that a particle's row reads: its edge, geometric stiffness and share, all zero if the spring does not
+/// exist.
 struct BentSpring {
     vec3 edge;
     float stiffness, share;
 };
 
-/// Second differences at rest of the elements around the particle before, this one and the one after, m.
+/// The second differences at rest of the elements around the previous particle, this one and the next one, m.
 struct BentTargets {
     vec3 first, middle, third;
 };
 
-/// Row of a particle between the two springs before it and the two after it.
+/// Returns the row of a particle between the two springs before it and the two after it.
 SHARED BentRow bent_row(BentSpring far_before, BentSpring before, BentSpring after, BentSpring far_after,
                         BentTargets targets, float bend, float weight, bool is_second) {
     float first = element_bend(bend, far_before.share, before.share);
@@ -50,7 +52,7 @@ SHARED BentRow bent_row(BentSpring far_before, BentSpring before, BentSpring aft
     precise vec3 tension = after.edge * after.stiffness - before.edge * before.stiffness;
     precise vec3 bending = difference * (2.0f * middle) - (first_difference * first + third_difference * third);
     precise vec3 right = (tension + bending) * weight;
-    // The couplings to the particles two and one before and two after, and the sums of two.
+    // The couplings to the particles two and one before and two after, and the sums of pairs of them.
     precise float far_before_by = weight * first;
     precise float before_by = -(weight * (before.stiffness + 2.0f * (first + middle)));
     precise float both_before = -(weight * (before.stiffness + (first + 2.0f * middle)));
@@ -64,7 +66,7 @@ SHARED BentRow bent_row(BentSpring far_before, BentSpring before, BentSpring aft
     return BentRow(vec2(both_before, before_by), vec2(1.0f, turn), vec2(far_after_by, 0.0f), right);
 }
 
-/// Returns what a row makes of its own block's unknowns where those beside it stay.
+/// Returns the coefficients of a row for its own block's unknowns when the neighbouring blocks do not move.
 SHARED vec2 own_part(BentRow row, float apart) {
     precise float of_change = row.rigid.x - (row.before.x + row.after.x);
     precise float of_turn = (row.rigid.y - (row.before.y - apart * row.before.x)) - (row.after.y + apart * row.after.x);
@@ -90,7 +92,7 @@ SHARED vec3 weighted_right(vec2 weights, BentBlock block) {
     return right;
 }
 
-/// A row after the unknowns of the blocks `distance` before and after its own are eliminated from it.
+/// Returns a row after the unknowns of the blocks `distance` before and after its own were eliminated from it.
 SHARED BentRow reduced_bent_row(BentRow row, BentBlock before, BentBlock after, int distance) {
     float apart = float(2 * distance);
     vec2 by_before = weights_of(row.before, own_part(before.first, apart), own_part(before.second, apart));
@@ -107,7 +109,7 @@ SHARED BentRow reduced_bent_row(BentRow row, BentBlock before, BentBlock after, 
                    vec2(-farther_after.x, -farther_after.y), right);
 }
 
-/// y of a block's first or second particle. The block's rows couple to nothing any more.
+/// Returns y of a block's first or second particle, when the block's rows are coupled to no other block any more.
 SHARED vec3 bent_solution(BentBlock block, bool is_second) {
     vec2 weights = weights_of(is_second ? vec2(1.0f, 1.0f) : vec2(1.0f, 0.0f), block.first.rigid, block.second.rigid);
     return weighted_right(weights, block);

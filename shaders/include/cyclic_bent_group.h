@@ -1,9 +1,11 @@
-// Cyclic reduction of lines that bend, beside that of cyclic_group.h: an invocation has a row, two a block.
+// Cyclic reduction of lines that bend, in the way of cyclic_group.h: each invocation has a row, and each two have a
+// block.
 shared float handed_right[3 * gl_WorkGroupSize.x * gl_WorkGroupSize.y];
 
 bool is_second() { return (group_place & 1) != 0; }
 
-/// Returns the spring after a neighbour, which was handed out as its edge and stiffness, and its share.
+/// Returns the spring after a neighbour's particle, which the neighbour passed as its edge and stiffness, and its
+/// share.
 BentSpring spring_of_neighbour(int by) {
     vec4 spring = from_neighbour(by);
     float share = has_neighbour(by) ? handed_too[int(gl_LocalInvocationIndex) + by].x : 0.0f;
@@ -12,7 +14,7 @@ BentSpring spring_of_neighbour(int by) {
 
 void hand_out(BentRow row) {
     int place = int(gl_LocalInvocationIndex);
-    barrier();  // all have read what was handed out before
+    barrier();  // all invocations have read what was passed before
     handed[place] = vec4(row.before, row.after);
     handed_too[place] = row.rigid;
     for (int i = 0; i < 3; ++i) handed_right[3 * place + i] = row.right[i];
@@ -32,7 +34,7 @@ BentBlock block_of_neighbour(int by) {
 }
 
 /// Solves the system whose first `count` rows the invocations of a group hold. Returns this invocation's y. Every
-/// invocation of the workgroup must get here, with the same count.
+/// invocation of the workgroup must call this, with the same count.
 vec3 bent_solution_of(BentRow row, int count) {
     for (int distance = 1; 2 * distance < count; distance *= 2) {
         hand_out(row);

@@ -1,11 +1,11 @@
-// Cyclic reduction among the invocations of a workgroup, one row each. Each `group_width` invocations solve one system,
-// in which `group_place` is an invocation's place.
+// Cyclic reduction among the invocations of a workgroup, each with one row. Each group of `group_width` invocations
+// solves one system, in which `group_place` is an invocation's index.
 int group_width, group_place;
 shared vec4 handed[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
 shared vec2 handed_too[gl_WorkGroupSize.x * gl_WorkGroupSize.y];
 
 void hand_out(vec4 value) {
-    barrier();  // all have read what was handed out before
+    barrier();  // all invocations have read what was passed before
     handed[gl_LocalInvocationIndex] = value;
     barrier();
 }
@@ -22,7 +22,7 @@ bool has_neighbour(int by) {
     return place >= 0 && place < group_width;
 }
 
-/// Beyond a system's ends there are zeros.
+/// Rows beyond a system's ends are zero.
 vec4 from_neighbour(int by) {
     return has_neighbour(by) ? handed[int(gl_LocalInvocationIndex) + by] : vec4(0.0f, 0.0f, 0.0f, 0.0f);
 }
@@ -34,8 +34,8 @@ CyclicRow row_of_neighbour(int by) {
     return CyclicRow(row.x, row.y, row.z, vec3(row.w, right));
 }
 
-/// Returns this invocation's row after all others of its system were eliminated from it. The first `count` invocations
-/// of each system hold its rows. Every invocation of the workgroup must get here, with the same count.
+/// Returns this invocation's row after all other rows of its system were eliminated from it. The first `count`
+/// invocations of each system hold its rows. Every invocation of the workgroup must call this, with the same count.
 CyclicRow uncoupled(CyclicRow row, int count) {
     for (int distance = 1; distance < count; distance *= 2) {
         hand_out(vec4(row.shift, row.before, row.after, row.right.x), row.right.yz);

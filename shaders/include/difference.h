@@ -1,4 +1,4 @@
-// Measures how far two runs of one frame are apart (docs/solvers.md, "The closed loop").
+// Measures how far apart two runs are in a frame (docs/solvers.md, "The closed loop").
 #ifndef DRAPE_DIFFERENCE_H
 #define DRAPE_DIFFERENCE_H
 
@@ -13,7 +13,7 @@ SHARED DifferenceRecord joined(DifferenceRecord a, DifferenceRecord b) {
     return DifferenceRecord(moved, mass);
 }
 
-/// Difference of one particle of relative inverse mass `weight`; a held one counts nothing.
+/// Returns the difference of one particle with relative inverse mass `weight`; a held particle does not count.
 SHARED DifferenceRecord particle_difference(float weight, vec3 position, vec3 coarse_position) {
     if (!(weight > 0.0f)) return empty_difference();
     precise float share = 1.0f / weight;

@@ -7,15 +7,15 @@
 
 #include "shared/closed_loop_types.h"
 
-/// Returns e (m); none for what stands still, such as a pin that has stopped. For what a collider has touched, `before`
-/// is what collision.comp kept there, the displacement itself.
+/// Returns e (m), which is zero for a particle that stands still, such as that of a pin that has stopped. For a
+/// particle that a collider touched, `before` is the value that collision.comp stored, the displacement itself.
 SHARED vec3 end_excess(vec3 displacement, vec3 before) {
     precise vec3 excess = (displacement - before) * 0.5f;
     bool stands = displacement.x == 0.0f && displacement.y == 0.0f && displacement.z == 0.0f;
     return stands ? vec3(0.0f, 0.0f, 0.0f) : excess;
 }
 
-/// State of a substep of another length that ends at the same place with the same velocity and acceleration.
+/// The state of a substep of another length that ends at the same place with the same velocity and acceleration.
 struct ChangedSubstep {
     vec3 displacement;
     vec3 before;  // displacement of the substep before it

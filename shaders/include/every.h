@@ -1,18 +1,18 @@
-// Loops over `count` entries, of which an invocation takes every gl_NumWorkGroups.x * workgroup_width-th. `statement`
-// is a call for entry `entry`. On the default device a loop that ends at its top runs its body once more with no
-// invocation in it, which costs as much as a round; so this one ends at its bottom.
+// Loops over `count` entries; an invocation takes every gl_NumWorkGroups.x * workgroup_width-th entry. `statement` is a
+// call for entry `entry`. On the default device a loop with its test at the top runs its body once more with no active
+// invocation, which costs as much as a round, so this loop has its test at the bottom.
 #define FOR_EVERY(entry, count, statement) \
     FOR_EVERY_FROM(entry, int(gl_GlobalInvocationID.x), int(gl_NumWorkGroups.x) * workgroup_width, count, statement)
-// Does so for an invocation that takes the `first` of the entries, and then every `stride`-th.
+// The same for an invocation that takes the `first` of the entries, and then every `stride`-th.
 #define FOR_EVERY_FROM(entry, first, stride, count, statement) \
     for (int entry = (first);;) {                              \
         if (entry < (count)) statement;                        \
         entry += (stride);                                     \
         if (entry >= (count)) break;                           \
     }
-// Loops over those of the entries for which the call `test` says that there is something to do. All tests of a word of
-// bits come first, then `statement` as often as the invocation with the most to do has found something: on the default
-// device the code behind a branch runs for every entry.
+// Runs `statement` for those entries for which the call `test` returns true. All tests for a word of bits come first,
+// then `statement` as often as the invocation with the most such entries needs: on the default device the code behind a
+// branch would run for every entry.
 #define FOR_FOUND(entry, count, test, statement)                                                           \
     for (int stride = int(gl_NumWorkGroups.x) * workgroup_width, batch = int(gl_GlobalInvocationID.x);;) { \
         uint found = 0u;                                                                                   \

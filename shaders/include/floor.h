@@ -1,17 +1,18 @@
-// The floor is a plane that keeps still with the camera above it. All else is cut off where it goes below
-// (clip_distance), so the floor shows wherever nothing does, and the encoding pass draws it with the backdrop: once per
-// pixel, with no attributes to interpolate and, as it is flat, with light that is summed up before.
+// The floor is a plane that keeps still below the camera. Everything else is clipped where it goes below the floor
+// (clip_distance), so the floor shows wherever nothing else does. The encoding pass draws it together with the
+// backdrop: once per pixel, without attributes to interpolate, and, since it is flat, with light that was summed in
+// advance.
 #ifndef DRAPE_FLOOR_H
 #define DRAPE_FLOOR_H
 
-/// Radiance of a pixel that nothing covers: the floor's or, above its horizon, the backdrop's.
+/// Returns the radiance of a pixel that nothing covers: the floor's or, above its horizon, the backdrop's.
 vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
     vec3 ray = plane.ray[0].xyz + pixel.x * plane.ray[1].xyz + pixel.y * plane.ray[2].xyz;
     bool seen = ray.y < 0.0;
     float down = seen ? ray.y : -1.0;
     vec2 slope = ray.xz / down;
     vec2 place = plane.eye.xz - plane.eye.y * slope;
-    // By pixel, across and down, the derivatives of `slope` are (ray[k].xz - slope ray[k].y) / ray.y.
+    // Per pixel across and down, the derivatives of `slope` are (ray[k].xz - slope ray[k].y) / ray.y.
     vec2 change = abs(plane.ray[1].xz - slope * plane.ray[1].y) + abs(plane.ray[2].xz - slope * plane.ray[2].y);
     float cells = 1.0 / plane.eye.w;
     float lines = grid_lines(place * cells, max(abs(plane.eye.y * cells / down) * change, vec2(1e-6)));
@@ -20,7 +21,7 @@ vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
     if (shadowed) {
         vec3 there = vec3(place, 1.0);
         vec2 texel = vec2(dot(plane.shadow[0].xyz, there), dot(plane.shadow[1].xyz, there));
-        // Towards the horizon the texel is beyond what an integer holds.
+        // Near the horizon the texel's index exceeds what an integer holds.
         texel = clamp(texel, vec2(-8.0), vec2(shadow_map_size + 8));
         lit = light_arriving(vec3(texel, dot(plane.shadow[2].xyz, there)), vec2(plane.steady.w, plane.first.w));
     }

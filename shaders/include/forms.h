@@ -1,11 +1,11 @@
-// Finds what of a mesh that deforms is nearest to a sample of its field.
+// Finds the point of a mesh that deforms nearest to a sample of its field.
 #ifndef DRAPE_FORMS_H
 #define DRAPE_FORMS_H
 
 #include "include/vector.h"
 #include "shared/form_types.h"
 
-// The includer has the lists, in GLSL as buffers.
+// The includer defines the lists; in GLSL they are buffers.
 #ifdef __cplusplus
 struct FormTables {
     const FormNode* nodes;
@@ -27,7 +27,7 @@ struct FormTables {
 #define FORM_SIDES(place) form_sides[place]
 #endif
 
-/// The point of a triangle nearest to another: the shares of its second and third corner, and the square of the
+/// The point of a triangle nearest to another point: the shares of its second and third corner, and the square of the
 /// distance, m^2.
 struct TriangleFoot {
     float second, third, squared;
@@ -43,7 +43,7 @@ SHARED TriangleFoot triangle_foot_at(vec3 from_first, vec3 ab, vec3 ac, float se
     return TriangleFoot(second, third, ordered_dot(off, off));
 }
 
-/// The region of the plane that the point lies over decides (Ericson, "Real-Time Collision Detection", 5.1.5).
+/// The region of the plane over which the point lies decides (Ericson, "Real-Time Collision Detection", 5.1.5).
 SHARED TriangleFoot triangle_foot(vec3 point, vec3 a, vec3 b, vec3 c) {
     vec3 ab = difference_of(b, a), ac = difference_of(c, a), ap = difference_of(point, a);
     float d1 = ordered_dot(ab, ap), d2 = ordered_dot(ac, ap);
@@ -73,7 +73,8 @@ SHARED TriangleFoot triangle_foot(vec3 point, vec3 a, vec3 b, vec3 c) {
         return triangle_foot_at(ap, ab, ac, rest, share);
     }
     precise float all = va + vb + vc;
-    if (!(all > 0.0f)) return triangle_foot_at(ap, ab, ac, 0.0f, 0.0f);  // no area, and its edges were not nearer
+    if (!(all > 0.0f))
+        return triangle_foot_at(ap, ab, ac, 0.0f, 0.0f);  // it has no area, and its edges were not nearer
     precise float second = vb / all;
     precise float third = vc / all;
     return triangle_foot_at(ap, ab, ac, second, third);
@@ -90,7 +91,7 @@ SHARED TriangleFoot form_foot(vec3 point, int first_corner, uint triangle WITH_F
                          form_corner(corner + 2 FORMS));
 }
 
-/// Returns the square of the distance to a box.
+/// Returns the square of the distance from a point to a box.
 SHARED float box_gap(vec3 point, FormNode box) {
     precise vec3 below = vec3(box.lower.x, box.lower.y, box.lower.z) - point;
     precise vec3 above = point - vec3(box.upper.x, box.upper.y, box.upper.z);
@@ -100,7 +101,7 @@ SHARED float box_gap(vec3 point, FormNode box) {
     return ordered_dot(off, off);
 }
 
-/// Returns whether nothing in a box can be nearer than what was found, or not by as much as counts.
+/// Returns whether nothing in a box can be nearer than the nearest point so far, or not by enough to matter.
 SHARED bool is_beyond(float gap, float found, float exact) {
     precise float slack = gap * (found > exact ? 1.0404f : 0.99999f);
     return !(slack < found);
@@ -136,7 +137,7 @@ SHARED FormFoot nearest_foot(vec3 point, FormPush push, int form, uint guess WIT
     return nearest;
 }
 
-/// Returns how far the foot moves from the form of the frame's begin to that of its end, m.
+/// Returns how far the foot point moves from the form at the frame's start to that at its end, m.
 SHARED vec3 foot_way(FormFoot nearest, FormPush push WITH_FORMS) {
     int before = push.first.y + 3 * int(nearest.triangle), after = before + 3 * push.count.y;
     vec3 a = difference_of(form_corner(after FORMS), form_corner(before FORMS));
@@ -147,7 +148,7 @@ SHARED vec3 foot_way(FormFoot nearest, FormPush push WITH_FORMS) {
     return way;
 }
 
-/// A sample: the distances to both forms, negative inside, and how far the surface near it moves in the frame, m.
+/// A sample: the distances to both forms, negative inside, and how far the surface near it moves during the frame, m.
 struct FormSample {
     float begin, end;
     vec3 way;
@@ -160,8 +161,8 @@ SHARED float form_distance(FormFoot nearest, FormPush push, int form, int number
     return inside ? -distance : distance;
 }
 
-/// The surface's way is the mean of that of the point nearest when the frame begins and of the one nearest when it
-/// ends: on a body that turns, the place is halfway between the two in direction, too.
+/// The surface's motion is the mean of that of the point nearest at the frame's start and of the one nearest at its
+/// end: on a body that turns, this also gives the middle direction between the two.
 SHARED FormSample form_sample(FormPush push, int x, int y, int z WITH_FORMS) {
     precise vec3 point =
         vec3(push.lower.x, push.lower.y, push.lower.z) + vec3(float(x), float(y), float(z)) * push.lower.w;

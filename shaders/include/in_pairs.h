@@ -1,6 +1,7 @@
-// Walks along a line. `statement`, a call, is run `count` times, two of them a round: on the default device all that
-// one round hands to the next is blended and moved. A statement that branches costs another such blend, so callers
-// treat a line's ends before and after the walk. The loop, of one round at least, ends at its bottom (include/every.h).
+// Walks along a line. `statement`, a call, runs `count` times, twice in each round: on the default device all values
+// that one round passes to the next are blended and moved. A statement that branches costs another such blend, so
+// callers treat a line's ends before and after the walk. The loop, of at least one round, has its test at the bottom
+// (include/every.h).
 #define IN_PAIRS(count, statement)     \
     {                                  \
         int rounds_left = (count) / 2; \

@@ -1,7 +1,7 @@
-// The tension of springs that a sweep relaxes (spring_stream.comp, spring_tile.comp), by first particle. Where
-// `stores_stretch_tension`, that of the stretch springs is stored, from zero on; where `carries_tension`, that of all
-// springs, from where the iteration before left it, in other images than it is read from: the part that strips or tiles
-// have in common each of them reads.
+// The tension of springs that an iteration relaxes (spring_stream.comp, spring_tile.comp), by first particle. Where
+// `stores_stretch_tension`, that of the stretch springs is stored, starting from zero. Where `carries_tension`, that of
+// all springs is stored, starting from the previous iteration's. It is written to other images than it is read from,
+// since overlapping strips or tiles read the same part.
 layout(constant_id = 2) const bool first_iteration = true;
 layout(constant_id = 24) const bool stores_stretch_tension = false;
 layout(constant_id = 25) const bool carries_tension = false;
@@ -15,10 +15,10 @@ layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_column_in;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_right_in;
 layout(set = 0, binding = 11, r32f) uniform readonly image2D tension_shear_down_left_in;
 
-/// Clamps to the grid: rows that a strip or tile lacks have no spring.
+/// Returns a place within the grid: springs of rows that a strip or tile lacks do not exist.
 ivec2 tension_place(ivec2 owner) { return max(min(owner, push.grid - 1), ivec2(0)); }
 
-/// Returns the tension from which a spring starts.
+/// Returns the tension with which a spring starts.
 float tension_at(ivec2 owner, const int channel) {
     if (!carries_tension) return 0.0f;
     if (first_iteration) return 0.0f;

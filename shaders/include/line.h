@@ -11,7 +11,7 @@
 
 #include "include/spring.h"
 
-/// First particle (column, row) of a line: rows start in column 0, all others in row 0.
+/// Returns the first particle (column, row) of a line: rows start in column 0, all others in row 0.
 SHARED ivec2 line_start(int line, ivec2 step) { return step.y == 0 ? ivec2(0, line) : ivec2(line, 0); }
 
 SHARED ivec2 line_end(int line, ivec2 step, int count, int columns) {
@@ -27,10 +27,10 @@ SHARED ivec2 next_on_line(ivec2 particle, ivec2 step, int columns) {
     return ivec2(x < 0 ? columns - 1 : x == columns ? 0 : x, particle.y + step.y);
 }
 
-// Values are chosen here, not branched on: the default device would run both sides anyway, under masks.
+// Values are selected, not branched on: the default device would run both branches anyway, under masks.
 
-/// A spring as the second system reads it: its unit edge, its length and how far it is too long, m. The normal is zero
-/// where there is no direction: such a spring pulls on nothing.
+/// A spring in the second system: its unit edge, its length and how far it is too long, m. The normal is zero where the
+/// edge has no direction; such a spring pulls on nothing.
 struct LineSpring {
     vec3 normal;
     float current;
@@ -47,45 +47,45 @@ SHARED LineSpring line_spring(vec3 edge, float rest_length) {
 }
 
 /// Returns a tension in the solve's own units, an extension by the compliance in use (m). It is stored as an extension
-/// by the compliance that the scene asks for, which no order and no length of a substep changes; `per_followed` is the
-/// first over the second.
+/// by the scene's compliance, which neither the order nor the length of a substep changes; `per_followed` is the
+/// compliance in use divided by the scene's.
 SHARED float tension_in_use(float stored, float per_followed) {
     precise float tension = stored * per_followed;
     return tension;
 }
 
-/// `followed`: the compliance that the scene asks for over the one in use.
+/// `followed`: the scene's compliance divided by the one in use.
 SHARED float stored_tension(float tension, float followed) {
     precise float stored = tension * followed;
     return stored;
 }
 
-/// Returns the last substep's tension (an extension by the compliance in use, m) per length of the spring where the
-/// substep starts. Springs that push carry nothing over, and the bound by L makes collapsed starts safe.
+/// Returns the last substep's tension (an extension by the compliance in use, m) per length of the spring at the start
+/// of the substep. Compressed springs carry no tension over, and the bound by L makes collapsed starts safe.
 SHARED float tension_per_length(float tension, vec3 start_edge, float rest_length) {
     precise float current = sqrt(ordered_dot(start_edge, start_edge));
     precise float per_length = tension / (current > rest_length ? current : rest_length);
     return tension > 0.0f ? per_length : 0.0f;
 }
 
-/// Returns g of a spring in units of the inner particle's mass over the substep's length squared, dimensionless.
-/// `per_compliance`: 1/alpha.
+/// Returns g of a spring, dimensionless, in units of the inner particle's mass divided by the square of the substep's
+/// length. `per_compliance`: 1/alpha.
 SHARED float geometric_stiffness(float tension_per_length, float share, float per_compliance) {
     precise float stiffness = (share * tension_per_length) * per_compliance;
     return stiffness;
 }
 
-/// A particle eliminated from the first system: delta_i = row.xyz + row.w delta_(i+1). `left` is 1 - row.w, kept
-/// because a stiff line would lose its digits in the difference.
+/// A particle eliminated from the first system: delta_i = row.xyz + row.w delta_(i+1). `left` is 1 - row.w, stored
+/// because for a stiff line the difference would lose its digits.
 struct EliminatedParticle {
     vec4 row;
     float left;
 };
 
-/// The elimination begins with this particle before a line's first, which does not move.
+/// Returns the particle before a line's first, which does not move; the elimination begins with it.
 SHARED EliminatedParticle unmoved_start() { return EliminatedParticle(vec4(0.0f, 0.0f, 0.0f, 0.0f), 1.0f); }
 
-/// Forward elimination of particle i of the first system, between the springs `before` and `after` it,
+/// Eliminates particle i from the first system, between the springs `before` and `after` it,
 ///   (1 + w (g_(i-1) + g_i)) delta_i - w g_(i-1) delta_(i-1) - w g_i delta_(i+1) = w (g_i e_i - g_(i-1) e_(i-1)).
 /// g is zero beyond the ends.
 SHARED EliminatedParticle eliminate_particle(EliminatedParticle previous, vec3 edge_before, float stiffness_before,
@@ -102,37 +102,37 @@ SHARED EliminatedParticle eliminate_particle(EliminatedParticle previous, vec3 e
     return EliminatedParticle(vec4(reduced.x, reduced.y, reduced.z, upper), left);
 }
 
-/// Back substitution: delta of a particle from that of the particle after it.
+/// Back substitution: returns delta of a particle from that of the particle after it.
 SHARED vec3 substitute_particle(vec4 eliminated, vec3 delta_after) {
     precise vec3 delta = vec3(eliminated.x, eliminated.y, eliminated.z) + delta_after * eliminated.w;
     return delta;
 }
 
-/// Tension (m) that the first system leaves a spring with: it turned the spring and made it longer.
+/// Returns the tension (m) of a spring after the first system, which turned the spring and made it longer.
 SHARED float filtered_tension(float tension_per_length, LineSpring spring) {
     precise float tension = tension_per_length * spring.current;
     return tension;
 }
 
-/// A spring takes part in its line's system if it exists and has a direction.
+/// Returns whether a spring takes part in its line's system: it exists and has a direction.
 SHARED bool pulls(LineSpring spring, float share) {
     return share > 0.0f && (spring.normal.x != 0.0f || spring.normal.y != 0.0f || spring.normal.z != 0.0f);
 }
 
-/// Returns |C - T| (m), which the solve is asked to take back, or `largest` where that is more. At a lone pin of a fine
-/// grid C alone is large at rest and no error, since the spring's tension explains it.
+/// Returns |C - T| (m), the violation that the solve has to remove, or `largest` if that is larger. At a lone pin of a
+/// fine grid C alone is large at rest, which is no error, since the spring's tension explains it.
 SHARED float larger_violation(float largest, LineSpring spring, float share, float compression, float tension) {
     precise float unexplained = abs(balancing_tension(spring.excess, compression) - tension);
     return pulls(spring, share) && unexplained > largest ? unexplained : largest;
 }
 
-/// A line is wrong if its largest |C - T| is more than line_violation_limit rest lengths.
+/// Returns whether a line is wrong: its largest |C - T| exceeds line_violation_limit rest lengths.
 SHARED bool line_is_wrong(float largest, float rest_length) {
     precise float violation = largest / rest_length;
     return violation > line_violation_limit;
 }
 
-/// Elimination of row e of the second system
+/// Eliminates row e of the second system
 ///   a_e x_(e-1) + b_e x_e + c_e x_(e+1) = -(C_e - T_e),
 ///   a_e = -w_e n_(e-1).n_e,  b_e = w_e + w_(e+1) + alpha/s,  c_e = -w_(e+1) n_e.n_(e+1).
 /// Every row is multiplied by s = `share` (in [0, 1]; 0 = no spring: x_e = 0), of which a spring pushed together keeps
@@ -153,36 +153,37 @@ SHARED vec2 eliminate_spring(vec2 previous, vec3 normal_before, LineSpring sprin
     return pulls(spring, share) ? vec2(lower, reduced) : vec2(0.0f, 0.0f);
 }
 
-/// Forward substitution: the change of a spring's multiplier from that of the spring before it.
+/// Forward substitution: returns the change of a spring's multiplier from that of the spring before it.
 SHARED float substitute_spring(vec2 eliminated, float change_before) {
     precise float change = eliminated.y - eliminated.x * change_before;
     return change;
 }
 
-/// Correction of the particle between two springs of a line; the caller adds it times the particle's w.
+/// Returns the correction of the particle between two springs of a line; the caller multiplies it by the particle's w.
 SHARED vec3 line_correction(vec3 normal_before, float change_before, vec3 normal_after, float change_after) {
     precise vec3 correction = normal_before * change_before - normal_after * change_after;
     return correction;
 }
 
-/// Displacement after both systems. Their changes are added up before they meet the displacement's rounding.
+/// Returns the displacement after both systems. Their changes are summed before they are rounded with the displacement.
 SHARED vec3 moved_by_both(vec3 displacement, vec3 delta, vec3 correction, float weight) {
     precise vec3 moved = displacement + (delta + correction * weight);
     return moved;
 }
 
-/// alpha/s of a spring.
+/// Returns alpha/s of a spring.
 SHARED float shared_compliance(float compliance, float share) {
     precise float shared_out = compliance / share;
     return shared_out;
 }
 
 #ifndef __cplusplus
-/// The compliance alpha/s of a spring is divided only where each may have another share.
+/// alpha/s is computed by a division only where springs may have different shares.
 #define SPRING_COMPLIANCE(line, share) (masked ? shared_compliance((line).compliance, share) : (line).shared_compliance)
 #endif
 
-/// Tension (m) of a spring whose multiplier changed; 0 where there is none. `compliance`: alpha/s.
+/// Returns the tension (m) of a spring whose multiplier changed; 0 where the spring does not exist. `compliance`:
+/// alpha/s.
 SHARED float changed_tension(float tension, float change, float share, float compliance) {
     precise float updated = tension - compliance * change;
     return share > 0.0f ? updated : 0.0f;

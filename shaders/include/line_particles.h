@@ -1,23 +1,23 @@
 // Lines of particles as line.comp and line_cyclic.comp read them. The includer has the images `position`,
 // `displacement_in`, `tension_in`, `line_control` and, where `masked`, `spring_shares`, the push constants (LinePush)
-// and `first_iteration`, in which both systems are solved; later iterations repeat the second alone.
+// and `first_iteration`: both systems are solved in the first iteration, the second one alone in later ones.
 #include "include/bend_target.h"
 
-/// The line's push constants, read once: on the default device a loop that reads them loads them anew, lane by lane, in
-/// each of its rounds. For the same reason only stores in the loops below branch.
+/// A line's push constants, read once: on the default device a loop that reads push constants loads them again in each
+/// round, lane by lane. For the same reason only stores in the loops below branch.
 struct Line {
     int index, last;  // index of the line, and of its last particle
     ivec2 step;
     int columns, seam, channel;
-    float share;  // share of all its springs, where no image has them
+    float share;  // share of all its springs, unless an image has their shares
     float rest_length, compliance, per_compliance, followed, per_followed, bend, compression;
-    float shared_compliance;  // for springs that have `share`
+    float shared_compliance;  // for springs with the share `share`
 };
 
 struct LineParticle {
     ivec2 at;
-    vec4 position;  // w: inverse mass that its springs feel, with the wind's drag
-    vec4 moved;     // xyz: displacement before this pass; w: the mark kept beside it (verlet.h)
+    vec4 position;  // w: inverse mass on which its springs act, with the wind's drag
+    vec4 moved;     // xyz: displacement before this pass; w: the mark stored beside it (verlet.h)
 };
 
 Line read_line(int index) {
@@ -68,7 +68,7 @@ float stiffness_of(Line line, LineParticle first, LineParticle second, float sha
     return geometric_stiffness(tension_per_length_of(line, first, second), share, line.per_compliance);
 }
 
-/// Tension of the spring between two particles, after the first system if that is solved.
+/// Returns the tension of the spring between two particles, after the first system if it is solved.
 float filtered_tension_of(Line line, LineParticle first, LineParticle second, LineSpring spring) {
     if (!first_iteration) return tension_of(line, first.at);
     return filtered_tension(tension_per_length_of(line, first, second), spring);

@@ -1,12 +1,12 @@
-// The frame's and the cloth's constants that fragments of lit surfaces read. On a CPU they go with the triangle as flat
-// inputs, which are one value each: its compiler loads a buffer's constants, and pushed ones, lane by lane in
-// fragments. On a GPU, which takes every input lane by lane, they are read where they are (docs/devices.md).
+// The constants of the frame and of the cloth that fragments of lit surfaces read. On a CPU they are flat inputs of the
+// triangle, one value each, since its compiler loads constants of a buffer, and push constants, lane by lane in
+// fragments. A GPU passes every input lane by lane, so there fragments read the constants directly (docs/devices.md).
 #ifndef DRAPE_LIT_CONSTANTS_H
 #define DRAPE_LIT_CONSTANTS_H
 
 #include "shared/raster_types.h"
 
-/// The members are those of FrameConstants. With the surfaces' own inputs and ClothLook they take 21 of the device's
+/// The members are those of FrameConstants. Together with the surfaces' own inputs and ClothLook they take 21
 /// locations; Vulkan guarantees 16.
 struct LitConstants {
     vec4 eye;
@@ -17,8 +17,8 @@ struct LitConstants {
     vec4 shadow_from_world[3];
 };
 
-/// Colours of a cloth's two sides, and of the pattern on both. front.w: side of the pattern's square, m; back.w: which
-/// pattern.
+/// Colours of a cloth's two sides, and of the pattern on both. front.w: side of the pattern's squares, m; back.w: the
+/// number of the pattern.
 struct ClothLook {
     vec4 front, back, second;
 };
@@ -27,7 +27,7 @@ ClothLook cloth_look(ClothPush push) {
     return ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second);
 }
 
-const int lit_location = 4;                                    // the first behind the surfaces' own
-const int look_location = lit_location + 6 + 2 * light_limit;  // behind LitConstants
+const int lit_location = 4;                                    // the first after the surfaces' own
+const int look_location = lit_location + 6 + 2 * light_limit;  // after LitConstants
 
 #endif

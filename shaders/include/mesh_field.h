@@ -1,8 +1,8 @@
-// The distance to a mesh by its field (shared/collider_types.h). Included by colliders.h, where there are meshes.
+// The distance to a mesh from its field (shared/collider_types.h). colliders.h includes this where there are meshes.
 #ifndef DRAPE_MESH_FIELD_H
 #define DRAPE_MESH_FIELD_H
 
-/// Returns a share of the way from a to b.
+/// Returns the value at a share of the way from a to b.
 SHARED float between(float a, float b, float share) {
     precise float step = (b - a) * share;
     precise float sum = a + step;
@@ -13,7 +13,7 @@ SHARED vec4 between_texels(vec4 a, vec4 b, float share) {
     return vec4(between(a.x, b.x, share), between(a.y, b.y, share), between(a.z, b.z, share), between(a.w, b.w, share));
 }
 
-/// A place in a mesh's field: the cell, the shares of the way through it, and the way from the field to it.
+/// A place in a mesh's field: the cell, the place's fractions within it, and the vector from the field to the place.
 struct FieldPlace {
     int first, row, layer;  // number of the cell's first sample; samples in a row, in a layer
     vec3 share;
@@ -39,14 +39,14 @@ SHARED FieldPlace field_place(int head, vec3 local WITH_FIELDS) {
     return FieldPlace(first, row, layer, share, off);
 }
 
-/// A field's distance at a place, m, and how it rises along each axis from one sample to the next.
+/// A field's distance at a place, m, and its slope along each axis, from one sample to the next.
 struct FieldSlope {
     float distance;
     vec3 slope;
 };
 
-/// Interpolates linearly along each axis. Beyond the field the way to it is added, so distances that contact does not
-/// ask for are too large there. `step`: texels of a sample.
+/// Interpolates linearly along each axis. Beyond the field the distance to the field is added, which gives too large
+/// values where contact needs none. `step`: texels of a sample.
 SHARED FieldSlope field_slope(int samples, int step, FieldPlace at WITH_FIELDS) {
     vec4 left = FIELD_TEXEL(samples + at.first * step), right = FIELD_TEXEL(samples + (at.first + 1) * step);
     vec3 share = at.share, off = at.off;
@@ -62,8 +62,8 @@ SHARED FieldSlope field_slope(int samples, int step, FieldPlace at WITH_FIELDS) 
     return FieldSlope(distance, slope);
 }
 
-/// Returns how far the surface of a mesh that deforms moves near a place in the frame, apart from its pose, in its own
-/// frame, m.
+/// Returns how far the surface of a mesh that deforms moves near a place during the frame, apart from its pose, in its
+/// own frame, m.
 SHARED vec3 deformed_by(int samples, FieldPlace at WITH_FIELDS) {
     int first = samples + at.first * moving_point_texels + 2;
     int right = moving_point_texels, up = at.row * moving_point_texels, far = at.layer * moving_point_texels;
@@ -76,9 +76,10 @@ SHARED vec3 deformed_by(int samples, FieldPlace at WITH_FIELDS) {
     return vec3(moved.x, moved.y, moved.z);
 }
 
-/// The field of a mesh that deforms when a share of the frame is `over`. What is there then came from where the surface
-/// moves from, and goes to where it moves to: of the distances there, at the frame's begin and end, the field goes from
-/// the one to the other. So a wall that moves by several times its thickness in a frame is there in between.
+/// Returns the field of a mesh that deforms when a share of the frame is `over`. The surface there came from its place
+/// at the frame's start and goes to that at its end: the field interpolates between the distances at these two places,
+/// at the frame's start and end. A wall that moves by several times its thickness within a frame is therefore present
+/// in between.
 SHARED FieldSlope moving_field_slope(int samples, vec3 local, float over WITH_FIELDS) {
     int head = samples - field_head;
     vec3 way = deformed_by(samples, field_place(head, local FIELDS) FIELDS);
@@ -91,7 +92,8 @@ SHARED FieldSlope moving_field_slope(int samples, vec3 local, float over WITH_FI
                            between(begin.slope.z, end.slope.z, over)));
 }
 
-/// The distance to a mesh and its slope by its field; one that deforms is as a share of the substep leaves it.
+/// Returns the distance to a mesh and its normal from its field; a mesh that deforms is taken after this share of the
+/// substep.
 SHARED SurfacePoint mesh_surface(ColliderRecord collider, vec3 local, float share WITH_FIELDS) {
     int samples = int(collider.way_out.x) + field_head;
     float substep = FIELD_TEXEL(samples - 1).w;

@@ -1,20 +1,21 @@
-// A particle and the six around it that share triangles with it. Passes load them once each, not once for each
-// triangle, and write their loops out, since arrays that no loop indexes are values on every device (docs/devices.md).
-// [[unroll]] would not do: code that spirv-opt unrolls is not precise any more. The includer has `push`, and where
-// `masked` its image of `cells`.
+// A particle and the six particles that share triangles with it. Passes load each of them once, not once for each
+// triangle, and have no loops over them, since an array that no loop indexes is held in registers on every device
+// (docs/devices.md). [[unroll]] would not do: code that spirv-opt unrolls is no longer precise. The includer has
+// `push`, and where `masked` its image of `cells`.
 #include "include/triangles.h"
 
 const int neighbourhood_count = 7;
 
-/// Index of an offset, row by row; the particle itself is the fourth. (-1, -1) and (1, 1) share no triangle with it.
+/// Returns the index of an offset, row by row; the particle itself has index 3. (-1, -1) and (1, 1) share no triangle
+/// with it.
 int place_in_neighbourhood(ivec2 offset) { return offset.y * 3 + offset.x + 3; }
 
-/// Index of corner (0..2) of a triangle of triangle_around.
+/// Returns the index of corner (0..2) of a triangle of triangle_around.
 int corner_in_neighbourhood(ivec4 around, int corner) {
     return place_in_neighbourhood(around.xy + triangle_corner(around.z, corner));
 }
 
-/// Texel of the neighbour at `offset`; past the border it is another particle, which exists.
+/// Returns the texel of the neighbour at `offset`; past the border, that of some other particle.
 ivec2 neighbourhood_texel(ivec2 particle, ivec2 offset) {
     return max(min(particle + offset, push.grid - 1), ivec2(0, 0));
 }

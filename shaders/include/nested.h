@@ -3,7 +3,7 @@
 #ifndef DRAPE_NESTED_H
 #define DRAPE_NESTED_H
 
-/// Box of the particles with |column - pin| <= radius.x, |row - pin| <= radius.y, as far as the sheet reaches.
+/// The box of the particles with |column - pin| <= radius.x and |row - pin| <= radius.y, within the sheet.
 struct NestedBox {
     ivec2 first, size;
 };
@@ -15,14 +15,14 @@ SHARED NestedBox nested_box(ivec2 pin, ivec2 radius, ivec2 grid) {
     return NestedBox(first, ivec2(last.x - first.x + 1, last.y - first.y + 1));
 }
 
-/// The `order`-th direction of a sweep; both diagonals come before rows and columns.
+/// Returns the `order`-th direction of a block's iteration; both diagonals come before rows and columns.
 SHARED int nested_direction(int order) { return order < 2 ? order + 2 : order - 2; }
 
 SHARED ivec2 nested_step(int direction) {
     return ivec2(direction == 1 ? 0 : direction == 3 ? -1 : 1, direction == 0 ? 0 : 1);
 }
 
-/// Column of the box whose particles own no spring of a direction, -1 = none, since diagonals wrap around.
+/// Returns the column of the box whose particles own no spring of a direction, since diagonals wrap around; -1: none.
 SHARED int nested_seam(ivec2 step, int columns) {
     if (step.x == 0 || step.y == 0) return -1;
     return step.x > 0 ? columns - 1 : 0;

@@ -1,6 +1,6 @@
-// Sweeps over boxes around lone pins, a workgroup per pin. The pins of a dispatch have boxes that share no particle. A
-// pin that has let go is left alone. `masked` is that of line.comp; where `sheared`, there are diagonal springs. The
-// includer defines how the lines of a direction are solved (sweep_direction).
+// Iterations over boxes around lone pins, with a workgroup per pin. The pins of a dispatch have boxes that share no
+// particle. A pin that has let go is skipped. `masked` is as in line.comp; where `sheared`, there are diagonal springs.
+// The includer defines how the lines of a direction are solved (sweep_direction).
 #include "include/push.h"
 CLOTH_CONSTANTS(NestedPush)
 #define TOGETHER
@@ -28,14 +28,14 @@ struct NestedLine {
     ivec2 box_first, step;
     int columns;                       // columns of the box
     int index, direction, seam, last;  // last: index of its last particle
-    float share;                       // share of all its springs, where no image has them
+    float share;                       // share of all its springs, unless an image has their shares
     float rest_length, compliance, followed, per_followed, compression;
-    float shared_compliance;  // for springs that have `share`
+    float shared_compliance;  // for springs with the share `share`
 };
 
 struct NestedParticle {
     ivec2 in_box, at;  // at: texel in the sheet
-    vec4 position;     // w: inverse mass that its springs feel, with the wind's drag
+    vec4 position;     // w: inverse mass on which its springs act, with the wind's drag
     vec4 displacement;
 };
 
@@ -79,7 +79,7 @@ LineSpring spring_between(NestedLine line, NestedParticle first, NestedParticle 
         length_at_rest(line.rest_length, first.at, line.direction));
 }
 
-/// Returns a line of a direction that lacks its index and its share.
+/// Returns a line of a direction without its index and its share.
 NestedLine line_of(NestedBox box, int direction, bool second_order) {
     ivec2 step = nested_step(direction);
     float followed = second_order ? push.followed_bdf2[direction] : push.followed[direction];
@@ -108,7 +108,7 @@ void sweep_order(NestedBox box, int order, bool second_order) {
 }
 
 void main() {
-    // Each cloth of the dispatch has a table of its own, of the same length.
+    // Each cloth of the dispatch has its own table; all tables have the same length.
     int first = nested_boxes.length() / cloths_together() * int(cloth_place());
     ivec2 pin = nested_boxes[first + given.first_pin + int(gl_WorkGroupID.x)].xy;
     if (LOAD(position, pin).w != 0.0f) return;
@@ -118,7 +118,8 @@ void main() {
         NestedBox box = nested_box(pin, nested_boxes[block].xy, push.grid);
         int sweep = 0;
         do {
-            // This is no loop: compiled for one direction at a time, a sweep looks at its own tension alone.
+            // This is not a loop: compiled for one direction at a time, the code reads the tension of that direction
+            // alone.
             sweep_order(box, 0, second_order);
             sweep_order(box, 1, second_order);
             sweep_order(box, 2, second_order);

@@ -1,20 +1,21 @@
-// Systems in parts among the invocations of a workgroup (part_rows.h). Subgroups are full; each has parts of
+// Solves systems in parts among the invocations of a workgroup (part_rows.h). Subgroups are full; each has parts of
 // `part_lines` systems, side by side, in `lanes` invocations each, which have `part_particles` rows each. Each
-// invocation eliminates all of its rows but the last, a subgroup those last ones but its own last by shuffles, and
-// every subgroup solves what is left of all of them, by shuffles too. The workgroup waits once for that.
+// invocation eliminates all of its rows but the last; a subgroup eliminates these last rows, except its own last one,
+// by shuffles; and every subgroup solves the remaining rows of all subgroups, by shuffles too. The workgroup waits once
+// for that.
 layout(constant_id = 3) const int subgroup_lanes = 8;
 const int lanes = subgroup_lanes / part_lines;
 const int groups =
     int(gl_WorkGroupSize.x) / subgroup_lanes;  // subgroups that have parts of one system, `lanes` at most
 
-int lane, group;  // this invocation's place in its part of the system, and that part's
-int first_lane;   // the subgroup's invocation that has the place 0
-int system;       // which of the subgroup's it is
-int group_at;     // where shared arrays have what is of the part; those of a system follow each other
+int lane, group;  // this invocation's place in its part of the system, and that part's number
+int first_lane;   // the invocation of the subgroup with place 0
+int system;       // which of the subgroup's systems it is
+int group_at;     // index of the part's data in shared arrays; those of a system follow each other
 
 CyclicRow row[part_particles];  // this invocation's rows
-vec3 solution[part_particles];  // and their unknowns
-vec3 solution_before;           // the unknown before them
+vec3 solution[part_particles];  // and their solutions
+vec3 solution_before;           // the solution before them
 
 shared vec4 first_rows[groups * part_lines], last_rows[groups * part_lines];
 shared vec2 first_right[groups * part_lines], last_right[groups * part_lines];
@@ -31,7 +32,7 @@ void take_group_places() {
 float from_lane(float value, int at) { return subgroupShuffle(value, uint(first_lane + at)); }
 vec3 from_lane(vec3 value, int at) { return subgroupShuffle(value, uint(first_lane + at)); }
 
-/// `wide`: the right-hand side has three components, else the first alone counts.
+/// `wide`: the right-hand side has three components; otherwise only the first counts.
 CyclicRow from_lane(CyclicRow from, int at, const bool wide) {
     vec3 right;
     if (wide)
@@ -63,7 +64,8 @@ void eliminate_before(const int j) {
     row[j] = without_before(row[j], row[j - 1]);
 }
 
-/// Eliminates from this part's last rows, but the last lane's, all others of them but that. Returns them normalised.
+/// Eliminates, from the last rows of this part's invocations, all of the part's others, except that of the last
+/// invocation. Returns them normalised.
 CyclicRow reduced_in_subgroup(CyclicRow own, const bool wide) {
     const int last = lanes - 1;
     for (int distance = 1; distance < last; distance *= 2) {
@@ -76,7 +78,7 @@ CyclicRow reduced_in_subgroup(CyclicRow own, const bool wide) {
     return lane < last ? normalised_row(own) : own;
 }
 
-/// Returns the last unknown of the part whose place in the system is this invocation's, from what parts have kept.
+/// Returns the last unknown of the part whose number in the system is this invocation's, from what the parts stored.
 vec3 last_unknown(const bool wide) {
     int of_system = group_at - group;
     CyclicRow own = no_cyclic_row();
@@ -92,12 +94,12 @@ vec3 last_unknown(const bool wide) {
     return cyclic_solution(own);
 }
 
-/// The unknown before this invocation's rows is known to eliminated rows as `before`.
+/// Substitutes: eliminated rows refer to the unknown before this invocation's rows as `before`.
 void substitute(const int j) { solution[j] = part_solution(row[j], solution_before, solution[j + 1]); }
 
 void join_first(inout CyclicRow first, const int j) { first = joined_row(row[j], first); }
 
-/// Solves the system of all `row`s. Every invocation of the workgroup must get here.
+/// Solves the system of all `row`s. Every invocation of the workgroup must call this.
 void solve(const bool wide) {
     const int last = lanes - 1;
     eliminate_before(1);
@@ -107,7 +109,7 @@ void solve(const bool wide) {
     eliminate_before(5);
     eliminate_before(6);
     eliminate_before(7);
-    CyclicRow first = row[6];  // of the first unknown, between the last ones of the invocation before and of this one
+    CyclicRow first = row[6];  // of the first unknown, between the previous invocation's last one and this one's
     join_first(first, 5);
     join_first(first, 4);
     join_first(first, 3);

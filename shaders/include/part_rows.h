@@ -17,7 +17,7 @@ SHARED CyclicRow normalised_row(CyclicRow row) {
     return CyclicRow(shift, before, after, right);
 }
 
-/// A row after the unknown before it is eliminated, by that one's normalised row.
+/// Returns a row after the unknown before it was eliminated with that unknown's normalised row.
 SHARED CyclicRow without_before(CyclicRow row, CyclicRow eliminated) {
     precise float before = row.before * eliminated.before;
     precise float shift = row.shift + abs(row.before) * eliminated.shift;
@@ -25,7 +25,7 @@ SHARED CyclicRow without_before(CyclicRow row, CyclicRow eliminated) {
     return CyclicRow(shift, before, row.after, right);
 }
 
-/// The same for the unknown after it.
+/// Returns a row after the unknown after it was eliminated in the same way.
 SHARED CyclicRow without_after(CyclicRow row, CyclicRow eliminated) {
     precise float after = row.after * eliminated.after;
     precise float shift = row.shift + abs(row.after) * eliminated.shift;
@@ -33,8 +33,8 @@ SHARED CyclicRow without_after(CyclicRow row, CyclicRow eliminated) {
     return CyclicRow(shift, row.before, after, right);
 }
 
-/// A normalised row after the unknown after it is eliminated that has the same unknown before it, by that one's
-/// normalised row.
+/// Returns a normalised row after the unknown after it was eliminated; that unknown's normalised row has the same
+/// unknown before it.
 SHARED CyclicRow joined_row(CyclicRow row, CyclicRow after) {
     precise float shift = row.shift + abs(row.after) * after.shift;
     precise float before = row.before + row.after * after.before;
@@ -43,7 +43,7 @@ SHARED CyclicRow joined_row(CyclicRow row, CyclicRow after) {
     return CyclicRow(shift, before, farther, right);
 }
 
-/// x of a normalised row between two that are known.
+/// Returns x of a normalised row between two known unknowns.
 SHARED vec3 part_solution(CyclicRow row, vec3 before, vec3 after) {
     precise vec3 solution = before * row.before + (after * row.after + row.right);
     return solution;

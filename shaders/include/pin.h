@@ -1,4 +1,4 @@
-// Displacement of a held particle, and the start of a released one.
+// The displacement of a held particle, and the start of a released one.
 //
 // A pin lets go at the start t of a substep, where its particle moves with v; by the substep's end it has moved by h v
 // + h^2 a/2. Verlet's d' = d + h^2 a, from the d of a substep that ends at t, gives that when d = h v - h^2 a/2: the
@@ -14,7 +14,8 @@
 
 #include "include/spring.h"
 
-/// Place to which a held pin takes a rest position; for a released pin, h times the velocity that it had there.
+/// Returns the place to which a held pin takes a rest position; for a released pin, h times the velocity that it had
+/// there.
 SHARED vec3 pin_target(PinMotion motion, vec3 rest) {
     vec3 row_x = vec3(motion.row_x.x, motion.row_x.y, motion.row_x.z);
     vec3 row_y = vec3(motion.row_y.x, motion.row_y.y, motion.row_y.z);
@@ -24,27 +25,27 @@ SHARED vec3 pin_target(PinMotion motion, vec3 rest) {
     return target;
 }
 
-/// Displacement that takes a held particle from `position` to where its pin moves its rest position.
+/// Returns the displacement that takes a held particle from `position` to where its pin moves its rest position.
 SHARED vec3 pin_displacement(PinMotion motion, vec3 rest, vec3 position) {
     precise vec3 moved = pin_target(motion, rest) - position;
     return moved;
 }
 
-/// Share of the first increment that counts beyond a whole one: (t - t')/h - 1/2.
+/// Returns the share of the first increment that counts in addition to a whole one: (t - t')/h - 1/2.
 SHARED float release_surplus(PinMotion motion) {
     precise float surplus = motion.held.y - 0.5f;
     return surplus;
 }
 
-/// This mark stands beside the displacement of a particle just released, in place of the share that drag took. It is
-/// minus the share of the particle's first increment that counts.
+/// Returns the mark that a particle just released has beside its displacement, in the place of the share that drag
+/// took: minus the share of the particle's first increment that counts.
 SHARED float release_mark(float surplus) {
     precise float mark = -(1.0f + surplus);
     return mark;
 }
 
-/// Returns `sum` plus a spring's pull on the particle that `edge` starts from. `tension` is an extension of the
-/// spring's whole `stiffness` k h^2/m_inner.
+/// Returns `sum` plus a spring's pull on the particle where `edge` starts. `tension` is an extension of the spring's
+/// full `stiffness` k h^2/m_inner.
 SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness) {
     precise float squared = ordered_dot(edge, edge);
     if (!(squared > 0.0f)) return sum;
@@ -52,9 +53,9 @@ SHARED vec3 add_tension_pull(vec3 sum, vec3 edge, float tension, float stiffness
     return total;
 }
 
-/// Returns the remainder that the displacement's sum gets with its first increment. `velocity_step`: h v - d; `pull`:
-/// the displacement by which springs would move an inner particle in a substep. It counts up to `reach`: springs torn
-/// to many times their length, as strong wind leaves them in too few substeps, would throw the particle out of sight.
+/// Returns the remainder of the displacement's sum after its first increment. `velocity_step`: h v - d; `pull`: the
+/// displacement by which springs would move an inner particle in a substep, limited to `reach`: springs stretched to
+/// many times their length, as strong wind with too few substeps leaves them, would throw the particle out of sight.
 SHARED vec3 release_remainder(vec3 velocity_step, float weight, float surplus, vec3 pull, float reach) {
     precise vec3 pulled = pull * (weight * surplus);
     precise float far = sqrt(ordered_dot(pulled, pulled));

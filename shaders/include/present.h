@@ -1,6 +1,6 @@
-// Cloths together (engine/cloth/together.h) lie below each other in the images of their state, each at its place. A
-// workgroup's z says whose it is; where only some of them take a step, `present` says who those are: by z their places,
-// then by place whether it is one of them.
+// The states of cloths that are simulated together (engine/cloth/together.h) lie below each other in the same images,
+// each at its place. A workgroup's z selects the cloth. Where only some cloths take a step, `present` lists them: first
+// their places, by z; then, by place, whether the cloth is among them.
 #ifndef DRAPE_PRESENT_H
 #define DRAPE_PRESENT_H
 
@@ -12,13 +12,13 @@ uint cloth_place() {
     if (has_present) place = present[gl_WorkGroupID.z];
     return place;
 }
-/// How many lie together, present or not.
+/// Returns how many cloths are simulated together, whether present or not.
 int cloths_together() {
     int count = int(gl_NumWorkGroups.z);
     if (has_present) count = present.length() / 2;
     return count;
 }
-/// Returns whether the cloth of a place takes the step, in passes over lists that are of all cloths.
+/// Returns whether the cloth of a place takes the step, for passes over lists that contain all cloths.
 bool is_present(uint place) {
     bool is = true;
     if (has_present) is = present[present.length() / 2 + int(place)] != 0u;

@@ -1,11 +1,11 @@
 #include "include/present.h"
-// Declares a compute shader's push constants as `push`, a copy of them made before anything branches. On the default
-// device the constants that a branch within a loop reads are loaded anew in every round, lane by lane.
+// Declares a compute shader's push constants as `push`, a copy that is made before anything branches. On the default
+// device, constants that a branch within a loop reads are loaded again in every round, lane by lane.
 #define PUSH_CONSTANTS(type)                            \
     layout(push_constant) uniform Push { type given; }; \
     type push = given;
-// The same for a pass over cloths together (include/together.h). Where `has_constants`, each cloth has its own, those
-// of the frame's first substep; `given` are the first cloth's, of the substep at hand.
+// The same for a pass over cloths together (include/together.h). Where `has_constants`, each cloth has its own
+// constants, for the frame's first substep; `given` are the first cloth's, for the current substep.
 #define CLOTH_CONSTANTS(type)                                                              \
     layout(push_constant) uniform Push { type given; };                                    \
     layout(constant_id = 30) const bool has_constants = false;                             \

@@ -1,4 +1,4 @@
-// The raster shaders share the frame's constants, projection and backdrop.
+// The frame's constants, the projection and the backdrop, which all raster shaders use.
 #ifndef DRAPE_RASTER_FRAME_H
 #define DRAPE_RASTER_FRAME_H
 
@@ -6,7 +6,7 @@
 
 layout(set = 0, binding = 0, std430) readonly buffer Frame { FrameConstants frame[]; };
 
-/// The backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top;
+/// Returns the backdrop behind a pixel: the scene's background at the picture's bottom, a fifth darker at its top;
 /// `background`: FrameConstants::background.
 vec3 backdrop(vec4 background, float pixel_y) { return background.xyz * (0.8 + 0.2 * pixel_y / background.w); }
 
@@ -16,19 +16,19 @@ vec4 clip_position(vec3 world) {
                 dot(frame[0].clip_from_world[2], point), dot(frame[0].clip_from_world[3], point));
 }
 
-/// Vertices write it to gl_ClipDistance. The floor is drawn behind all else, so anything deeper than `margin` under it
-/// must not be drawn.
+/// Returns the value that vertices write to gl_ClipDistance. The floor is drawn behind everything else, so anything
+/// deeper than `margin` below it must not be drawn.
 float clip_distance(vec3 world, float margin) { return dot(frame[0].above_floor, vec4(world, 1.0)) + margin; }
 
-/// Depth as if the cloth were nearer to the eye by its thickness. Contact keeps particles off a collider by as much,
-/// and a triangle between them cuts into it by no more.
+/// Returns the depth as if the cloth were nearer to the eye by its thickness. Contact keeps particles off a collider by
+/// this thickness, and a triangle between them cuts into it by no more.
 float depth_of_thickness(vec3 at, float thickness, float clip_w) {
     vec3 to_eye = frame[0].eye.xyz - at;
     vec4 nearer = vec4(at + to_eye * min(thickness * inversesqrt(max(dot(to_eye, to_eye), 1e-30)), 0.5), 1.0);
     return dot(frame[0].clip_from_world[2], nearer) / dot(frame[0].clip_from_world[3], nearer) * clip_w;
 }
 
-/// Texel coordinates and depth in the shadow map; `rows`: FrameConstants::shadow_from_world.
+/// Returns texel coordinates and depth in the shadow map; `rows`: FrameConstants::shadow_from_world.
 vec3 shadow_position(vec4 rows[3], vec3 world) {
     vec4 point = vec4(world, 1.0);
     return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));

@@ -1,5 +1,5 @@
-// Sums the lights of a frame over a surface; where `shadowed`, the first one through its shadow map. Loops are written
-// out: the default device's compiler unrolls none, and every round costs (docs/devices.md).
+// Sums the lights of a frame on a surface; where `shadowed`, the first one through its shadow map. The code has no
+// loops: the default device's compiler unrolls none, and every round costs time (docs/devices.md).
 #ifndef DRAPE_RASTER_LIGHTS_H
 #define DRAPE_RASTER_LIGHTS_H
 
@@ -13,7 +13,7 @@ LitConstants constants = constants_by_triangle ? triangle_constants : lit_consta
 layout(constant_id = 25) const bool shadowed = false;
 #include "include/shadow_map.h"
 
-/// Share of the first light that reaches a point, which is moved off the surface by a texel.
+/// Returns the share of the first light that reaches a point, which is moved off the surface by a texel.
 float visibility(vec3 world, vec3 normal) {
     if (!shadowed) return 1.0;
     vec3 to_light = constants.to_light[0].xyz;

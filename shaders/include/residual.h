@@ -1,4 +1,4 @@
-// The stretch error of a substep's springs says how far its solve is from done.
+// The stretch error of a substep's springs, which shows how far the solve is from converged.
 #ifndef DRAPE_RESIDUAL_H
 #define DRAPE_RESIDUAL_H
 
@@ -14,8 +14,8 @@ SHARED ResidualRecord joined(ResidualRecord a, ResidualRecord b) {
 }
 
 /// Returns `record` plus a stretch spring of length |edge|. Its error is (f(|edge| - rest_length) -
-/// tension)/rest_length, which a perfect solve makes zero (spring.h). `share`: of its stiffness, 0 = no such spring, of
-/// which a spring pushed together keeps `compression`.
+/// tension)/rest_length, which a perfect solve makes zero (spring.h). `share`: of its stiffness, 0 = the spring does
+/// not exist; a compressed spring has `compression` of it.
 SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_length, float share, float compression,
                                    float tension) {
     if (!(rest_length > 0.0f) || !(share > 0.0f)) return record;
@@ -26,7 +26,7 @@ SHARED ResidualRecord add_residual(ResidualRecord record, vec3 edge, float rest_
     return ResidualRecord(squares, record.count + 1u);
 }
 
-/// Returns whether the RMS is above the tolerance or not finite.
+/// Returns whether the RMS is above the tolerance, or not finite.
 SHARED bool needs_iteration(ResidualRecord record, float squared_tolerance) {
     precise float limit = squared_tolerance * float(record.count);
     return !(record.squares <= limit);

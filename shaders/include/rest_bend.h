@@ -7,13 +7,13 @@
 
 #include "include/vector.h"
 
-/// Directions in which column and row grow at a place of the cloth, m.
+/// The directions in which column and row grow at a place of the cloth, m.
 struct Tangents {
     vec3 row, column;
 };
 
-/// Returns alpha, beta, gamma and 1. Where the tangents span no plane, a strand one particle wide, which has no side,
-/// it returns the difference's length and 0.
+/// Returns alpha, beta, gamma and 1. Where the tangents span no plane, as in a strand one particle wide, which has no
+/// side, it returns the difference's length and 0.
 SHARED vec4 rest_coordinates(vec3 difference, Tangents rest) {
     vec3 normal = ordered_cross(rest.row, rest.column);
     float squared = ordered_dot(normal, normal);
@@ -26,7 +26,7 @@ SHARED vec4 rest_coordinates(vec3 difference, Tangents rest) {
     return vec4(along_row, along_column, across, 1.0f);
 }
 
-/// Returns D for tangents and a difference of now. A strand's points as its difference does.
+/// Returns D for current tangents and difference. In a strand, D points in the direction of the current difference.
 SHARED vec3 rest_difference(vec4 coordinates, Tangents now, vec3 difference) {
     float size = sqrt(ordered_dot(difference, difference));
     precise vec3 strand = difference * (coordinates.x / (size > 0.0f ? size : 1.0f));
@@ -50,7 +50,7 @@ SHARED Tangents sum_of_pulls(Tangents one, Tangents other) {
     return Tangents(row, column);
 }
 
-/// Adds a pull to a sum, with the sign of 1 or -1 that a particle has in the tangent, or 0.
+/// Adds a pull to a sum with `sign`: 1 or -1 as the particle is at the tangent's end or start, or 0.
 SHARED vec3 add_pull_of(vec3 sum, vec3 pull, float sign) {
     precise vec3 total = sum + pull * sign;
     return total;

@@ -1,6 +1,6 @@
-// A workgroup that streams down the rows of a strip of columns takes a band of them, an even number, from `begin` to
-// before `end`. It starts `lead` rows above (an even number), whose springs reach into the band and which other bands
-// store. Where the cloth is short one band holds all rows (shared/stream_types.h). The includer has `push.grid`.
+// A workgroup that goes down the rows of a strip of columns takes a band of them, an even number, from `begin` to
+// before `end`. It starts `lead` rows above the band (an even number), whose springs reach into the band; other bands
+// store these rows. A short cloth is one band (shared/stream_types.h). The includer has `push.grid`.
 struct RowBand {
     int begin, end;
 };

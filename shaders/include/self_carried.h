@@ -1,5 +1,5 @@
-// The motion that the particles of a member are measured against. The includer has include/self_cloths.h and `record`,
-// and calls `load_carried` where nothing has branched yet (docs/devices.md).
+// The common motion relative to which the particles of a member are measured. The includer has include/self_cloths.h
+// and `record`, and calls `load_carried` before anything has branched (docs/devices.md).
 vec3 first_carried;
 void load_carried() { first_carried = record[0].carried.xyz; }
 vec3 carried_at(int place) {

@@ -1,9 +1,10 @@
 // Contact of cloths with themselves and each other (docs/physics.md 5). A pair is a particle and a triangle, or two
-// edges, that share no corner: when surfaces come to cross, such a pair meets first. For every pair that a substep may
-// bring together a plane between the two is known, and no corner goes more than its share of the way to that plane: so
-// nothing crosses, whatever the solver wants (Newton's planar truncation; the bound per particle is that of Chen et al.
-// 2025, "Offset Geometric Contact"). Before that, pairs nearer than the thickness are pushed apart, with friction.
-// Motions are measured against one that all particles have in common, which changes no distance.
+// edges, that share no corner: when surfaces come to cross, such a pair touches first. For every pair that a substep
+// may bring together, a plane between the two primitives is computed, and no corner moves farther than its share of the
+// distance to that plane. So nothing crosses, whatever motion the solver computed (Newton's planar truncation; the
+// bound per particle is that of Chen et al. 2025, "Offset Geometric Contact"). Before that, pairs nearer than the
+// thickness are pushed apart, with friction. Motions are measured relative to a motion that all particles have in
+// common, which changes no distance.
 #ifndef DRAPE_SELF_CONTACT_H
 #define DRAPE_SELF_CONTACT_H
 
@@ -11,17 +12,18 @@
 #include "include/self_gap.h"
 #include "shared/self_contact_types.h"
 
-/// Shares of a pair's distance that stay on each side of its plane, for a free particle and for a held one, which goes
-/// where it is told.
+/// The shares of a pair's distance that remain on each side of its plane, for a free particle and for a held one, whose
+/// motion contact cannot change.
 const float self_gap_kept = 0.25f, self_held_kept = 0.025f;
-/// A correction is at most the first share of the thickness; the list of pairs reckons with the second.
+/// A correction is at most the first share of the thickness; the list of pairs allows for the second.
 const float self_correction_share = 0.24f, self_listed_share = 0.5f;
-/// A search of more nodes is given up: the default device would break off a loop of about so many rounds unseen.
+/// A search that visits more nodes is given up: the default device would silently break off a loop of about so many
+/// rounds.
 const int self_visit_limit = 60000;
 /// The common motion is the mean over a lattice of particles with this many along a side.
 const int self_samples = 6, self_cloth_samples = self_samples * self_samples;
 
-/// The mean of a cloth's thickness with itself is exact.
+/// Returns the mean thickness of two cloths; for a cloth and itself it is exact.
 SHARED float self_mean_thickness(SelfCloth one, SelfCloth other) {
     precise float mean = (one.thickness + other.thickness) * 0.5f;
     return mean;
@@ -31,15 +33,15 @@ SHARED bool self_same_cloth(SelfCloth one, SelfCloth other) {
     return one.first.x == other.first.x && one.first.y == other.first.y;
 }
 
-/// Inverse masses of a pair's corners, all in the first cloth's units.
+/// Returns the inverse masses of a pair's corners, all in the first cloth's units.
 SHARED vec4 self_corner_masses(bool edges, SelfCloth one, SelfCloth other, vec4 relative) {
     precise vec4 masses = vec4(relative.x * one.lightness, relative.y * (edges ? one.lightness : other.lightness),
                                relative.z * other.lightness, relative.w * other.lightness);
     return masses;
 }
 
-/// Returns the thickness that two primitives keep where they are nearest to each other, the mean of theirs there.
-/// `corners`: those of the particles; `weights`: their gap's.
+/// Returns the thickness that two primitives keep where they are nearest to each other: the mean of their thicknesses
+/// there. `corners`: the particles' thicknesses; `weights`: those of their gap.
 SHARED float self_thickness_there(vec4 weights, vec4 corners) {
     precise float sum = ((abs(weights.x) * corners.x + abs(weights.y) * corners.y) + abs(weights.z) * corners.z) +
                         abs(weights.w) * corners.w;
@@ -47,7 +49,7 @@ SHARED float self_thickness_there(vec4 weights, vec4 corners) {
     return mean;
 }
 
-/// Returns the friction there. `corners`: the square roots of the particles' coefficients.
+/// Returns the friction where the two are nearest. `corners`: the square roots of the particles' coefficients.
 SHARED float self_friction_there(bool edges, vec4 weights, vec4 corners) {
     precise float a = abs(weights.x) * corners.x;
     precise float b = abs(weights.y) * corners.y;
@@ -62,10 +64,10 @@ SHARED float self_pair_friction(SelfCloth one, SelfCloth other) {
     return self_same_cloth(one, other) ? one.friction : mean;
 }
 
-/// The thickness that a pair keeps, where `thickness` is that of its two sides. Primitives of one cloth that are nearer
-/// than two thicknesses in it when it is flat keep half of that distance, so that contact does not stiffen a cloth
-/// pushed together in its plane. `a` to `d`: columns and rows of the particles; `one`, `other`: the cloths of the first
-/// and of the last.
+/// Returns the thickness that a pair keeps, where `thickness` is the mean of its two sides. Primitives of one cloth
+/// that are nearer than two thicknesses in the flat cloth keep half of that distance, so that contact does not stiffen
+/// a cloth that is compressed in its plane. `a` to `d`: columns and rows of the particles; `one`, `other`: the cloths
+/// of the first and of the last.
 SHARED float self_pair_thickness(float thickness, SelfCloth one, SelfCloth other, bool edges, ivec2 a, ivec2 b, ivec2 c,
                                  ivec2 d) {
     int columns = b.x - a.x, rows = b.y - a.y;
@@ -85,8 +87,8 @@ SHARED float self_pair_thickness(float thickness, SelfCloth one, SelfCloth other
     return far || !self_same_cloth(one, other) ? thickness : least;
 }
 
-/// Returns by how much a pair's corners at most come nearer to each other along its normal in a substep before contact
-/// corrects it, whatever part of their motions they make.
+/// Returns a bound on how much nearer a pair's corners come along its normal in a substep, before contact corrects it,
+/// whatever part of their motions they make.
 SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
     float a = ordered_dot(gap.normal, motions.a), b = ordered_dot(gap.normal, motions.b),
           c = ordered_dot(gap.normal, motions.c), d = ordered_dot(gap.normal, motions.d);
@@ -96,8 +98,8 @@ SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {
     return approach;
 }
 
-/// A pair is listed if it may come nearer than its thickness, or if it may meet with what contact may add to every
-/// corner's motion. `thickness`: the mean of the two cloths'.
+/// Returns whether a pair is listed: it may come nearer than its thickness, or may touch with the motion that contact
+/// may add to each corner. `thickness`: the mean of the two cloths'.
 SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float pair_thickness, float thickness) {
     precise float slack = thickness * self_listed_share;
     precise float listing =
@@ -105,7 +107,7 @@ SHARED bool self_listed_pair(bool edges, SelfGap gap, SelfCorners motions, float
     return gap.apart < listing;
 }
 
-/// The largest gap between two boxes along an axis, a lower bound of their distance.
+/// Returns the largest gap between two boxes along an axis, a lower bound of their distance.
 SHARED float self_box_distance(SelfBox a, SelfBox b) {
     precise float x = a.lower.x - b.upper.x;
     precise float y = a.lower.y - b.upper.y;
@@ -116,7 +118,7 @@ SHARED float self_box_distance(SelfBox a, SelfBox b) {
     return self_largest(self_largest(self_largest(x, back_x), self_largest(y, back_y)), self_largest(z, back_z));
 }
 
-/// Primitives nearer than this may be listed in this substep; their boxes hold all of their motions.
+/// Returns the distance below which primitives may be listed in this substep; their boxes contain all of their motions.
 SHARED float self_reach(SelfBox a, SelfContactPush push, float thickness) {
     float doubt = self_doubt(self_largest(self_largest_coordinate(vec3(a.lower.x, a.lower.y, a.lower.z)),
                                           self_largest_coordinate(vec3(a.upper.x, a.upper.y, a.upper.z))));
@@ -129,10 +131,11 @@ SHARED bool self_boxes_meet(SelfBox a, SelfBox b, SelfContactPush push, float th
     return self_box_distance(a, b) <= self_reach(a, push, thickness);
 }
 
-/// A search looks so many substeps ahead, as if every cell went on as it goes, against the mean motion.
+/// A search looks this many substeps ahead, as if each cell kept its velocity relative to the mean motion.
 const float self_substeps_ahead = 4.0f;
 
-/// The box with which a cell is looked for. The search holds as long as the cell stays inside, in later substeps too.
+/// Returns the box with which a cell is searched for. The result remains valid while the cell stays inside, in later
+/// substeps too.
 SHARED SelfBox self_kept_box(SelfBox box, vec3 motion, vec3 mean, float margin) {
     precise vec3 on = (motion - mean) * self_substeps_ahead;
     precise float half_margin = margin * 0.5f;
@@ -161,31 +164,32 @@ SHARED vec3 self_mean(vec3 sum, int cloth_count) {
     return mean;
 }
 
-/// Returns how much of a mean motion a particle makes along it.
+/// Returns which part of a mean motion a particle makes along it.
 SHARED float self_part_made(vec3 motion, vec3 mean) {
     precise float part = self_ratio(ordered_dot(motion, mean), ordered_dot(mean, mean));
     return part;
 }
 
-/// The common motion is as much of the mean as the particle makes that makes least of it, so that cloth that rests on a
+/// Returns the common motion: the smallest part of the mean that any particle makes, so that cloth that rests on a
 /// collider is not carried into it by cloth that falls on it.
 SHARED vec3 self_common_motion(vec3 mean, float least_part) {
     precise vec3 made = mean * self_limited(least_part);
     return made;
 }
 
-/// Returns whether two cells are the same or neighbours, and so of one cloth; such cells are judged by how flat the
-/// cloth is about them.
+/// Returns whether two cells are the same or neighbours, and therefore of one cloth; such cells are judged by how flat
+/// the cloth is around them.
 SHARED bool self_neighbours(ivec2 a, ivec2 b) {
     int columns = b.x - a.x, rows = b.y - a.y;
     return columns >= -1 && columns <= 1 && rows >= -1 && rows <= 1;
 }
 
-/// The pairs k of cells at most two columns and rows apart that a cell stands for, relative to it: xy is the one of the
-/// lower place, zw the other; neighbours come first. Every such pair of a grid is one cell's.
+/// Returns pair k of those cells, at most two columns and rows apart, for which a cell is responsible, relative to it:
+/// xy is the cell with the lower place, zw the other; neighbours come first. Each such pair of a grid belongs to
+/// exactly one cell.
 const int self_neighbour_pairs = 5, self_close_pairs = 13;
 SHARED ivec4 self_close_pair(int k) {
-    // Each pair takes two bits for each of the four numbers, from the lowest on.
+    // Each pair has two bits for each of the four numbers, from the lowest bits on.
     uint four = k < 4 ? 0x50401000u : k < 8 ? 0x42602041u : k < 12 ? 0x908082a0u : 0x81u;
     uint pair = four >> uint(8 * (k & 3));
     return ivec4(int(pair & 3u), int((pair >> 2) & 3u), int((pair >> 4) & 3u), int((pair >> 6) & 3u));
@@ -197,14 +201,14 @@ SHARED bool self_close(ivec2 a, ivec2 b) {
     return columns >= -2 && columns <= 2 && rows >= -2 && rows <= 2;
 }
 
-/// Particles of a patch of 2 x 2 cells.
+/// The particles of a patch of 2 x 2 cells.
 struct SelfPatch {
     vec3 middle, left, right, up, down, up_left, up_right, down_left, down_right;
 };
 
 SHARED float self_squared(vec3 x) { return ordered_dot(x, x); }
 
-/// Square of the part of a motion that lies in the plane of a normal.
+/// Returns the square of the part of a motion in the plane with this normal.
 SHARED float self_within(vec3 motion, vec3 normal) {
     precise float across = ordered_dot(motion, normal);
     precise float within = ordered_dot(motion, motion) - across * across;
@@ -220,7 +224,7 @@ SHARED float self_moves_within(SelfPatch motions, vec3 normal) {
     return self_largest(self_within(motions.middle, normal), self_largest(beside, corners));
 }
 
-/// Square of the farthest distance of a patch's particles from a linear map.
+/// Returns the square of the largest distance of a patch's particles from a linear map.
 SHARED float self_off(SelfPatch x, vec3 along, vec3 across) {
     precise vec3 bent = (x.right + x.left) * 0.5f - x.middle;
     precise vec3 bent_across = (x.down + x.up) * 0.5f - x.middle;
@@ -233,7 +237,7 @@ SHARED float self_off(SelfPatch x, vec3 along, vec3 across) {
     return self_largest(off, self_largest(self_squared(down_left), self_squared(down_right)));
 }
 
-/// Smaller singular value of a map with these columns, rounded down.
+/// Returns the smaller singular value of a map with these columns, rounded down.
 SHARED float self_singular_value(vec3 first, vec3 second) {
     precise float mean = (self_squared(first) + self_squared(second)) * 0.5f;
     precise float half_difference = (self_squared(first) - self_squared(second)) * 0.5f;
@@ -244,10 +248,11 @@ SHARED float self_singular_value(vec3 first, vec3 second) {
     return singular;
 }
 
-/// Returns whether nothing of a patch comes near anything else of it with which it shares no corner, whatever part of
-/// their motions the particles make. The cloth there is a linear map but for the distance of its particles from it, at
-/// most `off`, and for their motion in its plane, at most `within`: two points `flat` apart at rest are at least s flat
-/// - 2 off - 2 within apart, s the map's smaller singular value. Motion across that plane brings none nearer.
+/// Returns whether no primitive of a patch comes near another one with which it shares no corner, whatever part of
+/// their motions the particles make. The cloth there is a linear map, except for the distance of its particles from the
+/// map, at most `off`, and their motion in its plane, at most `within`: two points that are `flat` apart at rest are at
+/// least s flat - 2 off - 2 within apart, where s is the map's smaller singular value. Motion perpendicular to the
+/// plane brings none nearer.
 SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatch x, SelfPatch motions) {
     precise vec3 along = (x.right - x.left) * 0.5f;
     precise vec3 across = (x.down - x.up) * 0.5f;
@@ -267,11 +272,11 @@ SHARED bool self_patch_lies_flat(SelfContactPush push, SelfCloth cloth, SelfPatc
     float listed = self_largest(self_least(cloth.thickness, half_flat), slack);
     precise float distance = singular * cloth.least_flat - sqrt(self_off(x, along, across)) * 2.001f;
     precise float needed = ((listed + within * 2.002f) + doubt * 4.0f) + push.least;
-    // Pairs farther apart in the flat cloth keep more, but no more than half of their distance.
+    // Pairs farther apart in the flat cloth keep a larger distance, but at most half of theirs.
     return singular > 0.5f && distance > needed;
 }
 
-/// The box of a place on the sheet where no cloth is lies near nothing.
+/// Returns the box of a place without cloth, which is near nothing.
 SHARED SelfBox self_no_box() {
     return SelfBox(vec4(1.0e30f, 1.0e30f, 1.0e30f, 0.0f), vec4(-1.0e30f, -1.0e30f, -1.0e30f, 0.0f));
 }
@@ -283,27 +288,27 @@ SHARED SelfBox self_joined(SelfBox a, SelfBox b) {
                         self_largest(a.upper.z, b.upper.z), 0.0f));
 }
 
-/// Box of a particle's motion against the common one.
+/// Returns the box of a particle's motion relative to the common one.
 SHARED SelfBox self_point_box(vec3 at, vec3 motion) {
     precise vec3 end = at + motion;
     return SelfBox(vec4(self_least(at.x, end.x), self_least(at.y, end.y), self_least(at.z, end.z), 0.0f),
                    vec4(self_largest(at.x, end.x), self_largest(at.y, end.y), self_largest(at.z, end.z), 0.0f));
 }
 
-/// Returns a displacement measured against the common motion.
+/// Returns a displacement relative to the common motion.
 SHARED vec3 self_relative_motion(vec3 displacement, vec3 carried) {
     precise vec3 motion = displacement - carried;
     return motion;
 }
 
-/// Returns by how much (m) contact, and colliders after it, may at most lead a particle off the motion that it had
-/// before them, or off any part of that motion; the list of pairs reckons with it.
+/// Returns how far (m) contact, and colliders after it, may move a particle away from the motion that it had before
+/// them, or from any part of that motion; the list of pairs allows for this.
 SHARED float self_limit(float thickness) {
     precise float limit = thickness * self_correction_share;
     return limit;
 }
 
-/// Returns the part of the motion before contact, against the common one, that a displacement comes nearest to.
+/// Returns the part of the motion before contact, relative to the common one, that is nearest to a displacement.
 SHARED vec3 self_part_kept(vec3 displacement, vec3 before, vec3 carried) {
     vec3 wanted = self_relative_motion(before, carried), motion = self_relative_motion(displacement, carried);
     float part = self_limited(self_ratio(ordered_dot(motion, wanted), ordered_dot(wanted, wanted)));
@@ -318,8 +323,8 @@ SHARED bool self_exceeds(vec3 displacement, vec3 nearest, float thickness) {
     return length > limit;
 }
 
-/// Returns the displacement that contact and colliders left: the part that they kept of the one before them, changed by
-/// no more than the limit. That way contact can stop a particle, however far the solver drives it, and let it slide.
+/// Returns the displacement after contact and colliders: the part of the earlier displacement that they kept, changed
+/// by no more than the limit. Contact can thus stop a particle, however far the solver moves it, and let it slide.
 SHARED vec3 self_bounded(vec3 displacement, vec3 before, vec3 carried, float thickness) {
     vec3 kept = self_part_kept(displacement, before, carried);
     vec3 nearest = self_exceeds(displacement, before, thickness) ? kept : before;
@@ -337,9 +342,9 @@ SHARED vec4 self_ends(SelfGap gap, vec4 along, vec4 shares) {
     return ends;
 }
 
-/// Returns where, m along the normal, the plane between the two is when the corners are at `ends`. Each side keeps its
-/// share of the distance that the pair began with; of the rest each gets as much as it wants of both, so that a layer
-/// may follow one that goes on before it. `wants`: motion along the normal that the corners still lack.
+/// Returns the place, m along the normal, of the plane between the two when the corners are at `ends`. Each side keeps
+/// its share of the initial distance; the rest is divided in proportion to what each side wants, so that a layer can
+/// follow one that moves away from it. `wants`: the motion along the normal that the corners still lack.
 SHARED float self_middle(bool edges, float apart, vec4 ends, vec4 wants) {
     float below = edges ? self_largest(ends.x, ends.y) : ends.x;
     float above = edges ? self_least(ends.z, ends.w) : self_least(ends.y, self_least(ends.z, ends.w));
@@ -357,9 +362,9 @@ SHARED float self_middle(bool edges, float apart, vec4 ends, vec4 wants) {
     return middle;
 }
 
-/// Share of its motion that a pair lets a corner make, at least `share`, which it makes already and which took it to
-/// `end`. `side`: 1 where it lies before the plane, -1 beyond. The pair stays apart by what the two sides keep,
-/// whatever the shares of all corners between those given and those returned: both ends of every motion are on their
+/// Returns the share of its motion that a pair allows a corner, at least `share`, which it already makes and which took
+/// it to `end`. `side`: 1 where it lies before the plane, -1 beyond. The pair stays apart by what the two sides keep,
+/// for all shares of the corners between the given and the returned ones, since both ends of every motion are on their
 /// side of a plane that moves evenly.
 SHARED float self_share(SelfGap gap, float middle, float end, float side, float along, float share, bool held,
                         float least) {
@@ -383,7 +388,7 @@ SHARED vec4 self_wants(vec4 along, vec4 shares) {
     return wants;
 }
 
-/// Two primitives that touch have no plane between them, so that nothing is proved of them.
+/// Returns whether two primitives touch; then there is no plane between them, and nothing is proved about them.
 SHARED bool self_touch(SelfGap gap) { return !(gap.distance > 1.0e-12f); }
 
 SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {
@@ -391,15 +396,16 @@ SHARED vec3 self_truncated(vec3 carried, vec3 motion, float share) {
     return truncated;
 }
 
-/// Returns how many entries a list holds.
+/// Returns how many entries a list contains.
 SHARED int self_listed(uint count, int room) { return count < uint(room) ? int(count) : room; }
 
-/// Returns how many entries a list holds towards which another grows from its end. There are none where they have
-/// overwritten each other, in a substep that is done again or given up (self_list_use).
+/// Returns how many entries a list contains when another list grows towards it from the end of the same memory. It is 0
+/// if they have overwritten each other, in a substep that is done again or given up (self_list_use).
 SHARED int self_both_listed(uint count, uint other, int room) { return count + other <= uint(room) ? int(count) : 0; }
 
-/// The fourth axis of a pair of cells is the normal of the first, since layers of a stack that lies aslant are apart
-/// along it and no other. It is zero, along which nothing is apart, where the cell does not exist or has no area.
+/// Returns the fourth axis for a pair of cells, the normal of the first: the layers of a stack that lies obliquely are
+/// separated along it and no other axis. It is zero, an axis that separates nothing, where the cell does not exist or
+/// has no area.
 SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, vec3 last) {
     precise vec3 down = last - first;
     precise vec3 up = right - below;
@@ -409,7 +415,7 @@ SHARED vec3 self_cell_normal(bool exists, vec3 first, vec3 right, vec3 below, ve
     return exists && area > 1.0e-15f ? unit : vec3(0.0f, 0.0f, 0.0f);
 }
 
-/// Box of a particle's motion, with `axis` as the fourth, in w.
+/// Returns the box of a particle's motion, with the extent along `axis`, the fourth one, in w.
 SHARED SelfBox self_slab(vec3 at, vec3 motion, vec3 axis) {
     precise vec3 end = at + motion;
     float along = ordered_dot(axis, at), then = ordered_dot(axis, end);
@@ -435,7 +441,7 @@ SHARED bool self_primitives_meet(SelfBox a, SelfBox b, SelfContactPush push, flo
     return apart <= self_reach(a, push, thickness);
 }
 
-/// Boxes along columns and rows of a level of the tree, and how many they are.
+/// Returns the numbers of boxes along columns and rows in a level of the tree.
 SHARED ivec2 self_tree_size(ivec2 grid, int level) {
     return ivec2(((grid.x - 1) >> level) + 1, ((grid.y - 1) >> level) + 1);
 }

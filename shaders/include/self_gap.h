@@ -4,7 +4,7 @@
 
 #include "include/vector.h"
 
-/// Four corners of a pair: particle and triangle, or the ends of one edge and of the other.
+/// The four corners of a pair: particle and triangle, or the ends of one edge and of the other.
 struct SelfCorners {
     vec3 a, b, c, d;
 };
@@ -12,11 +12,11 @@ struct SelfCorners {
 /// The place where two disjoint primitives are nearest, and a plane between them.
 struct SelfGap {
     vec4 weights;    // corners' weighted sum leads from the first primitive's nearest point to the other's
-    vec3 normal;     // direction of that sum, unit length; zero where the two touch
+    vec3 normal;     // direction of that sum, unit length; zero if the two touch
     float distance;  // m
-    float apart;     // m between two planes with this normal that have the two on either side; not > 0: none found
-    vec4 height;     // m of the corners along the normal, from the first one on
-    float doubt;     // m that rounding of coordinates this large leaves in doubt
+    float apart;     // m between two planes with this normal that separate the two; not > 0: none was found
+    vec4 height;     // m of the corners along the normal, relative to the first one
+    float doubt;     // m that the rounding of coordinates of this size leaves uncertain
 };
 
 SHARED float self_limited(float x) { return x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x; }
@@ -27,7 +27,7 @@ SHARED float self_ratio(float a, float b) {
 }
 
 /// Weights of a triangle's corners at its point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5). All cases
-/// are worked out and the first that holds is taken: on the default device that costs as much as one of them.
+/// are computed, and the first that applies is selected: on the default device that costs as much as one of them.
 SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -63,7 +63,7 @@ SHARED vec3 nearest_in_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     return d1 <= 0.0f && d2 <= 0.0f ? vec3(1.0f, 0.0f, 0.0f) : weights;
 }
 
-/// Places where two edges a-b and c-d are nearest, as shares of their lengths (Ericson, 5.1.9).
+/// Returns the places where two edges a-b and c-d are nearest, as shares of their lengths (Ericson, 5.1.9).
 SHARED vec2 nearest_on_edges(vec3 a, vec3 b, vec3 c, vec3 d) {
     precise vec3 first = b - a;
     precise vec3 second = d - c;
@@ -113,7 +113,7 @@ SHARED vec3 self_sum(vec4 weights, SelfCorners x) {
 
 SHARED float self_largest_coordinate(vec3 x) { return self_largest(self_largest(abs(x.x), abs(x.y)), abs(x.z)); }
 
-/// Distance (m) that a few roundings of a coordinate leave in doubt.
+/// Returns the distance (m) that a few roundings of a coordinate leave uncertain.
 SHARED float self_doubt(float coordinate) {
     precise float doubt = coordinate * 1.0e-6f;
     return doubt;
@@ -141,16 +141,16 @@ SHARED SelfGap self_gap(bool edges, SelfCorners corners) {
     return self_gap_along(edges, x, normal, weights, distance, doubt);
 }
 
-/// Returns a vector without its part along another, or all of it where that is zero.
+/// Returns a vector without its component along another; all of it where the other is zero.
 SHARED vec3 self_without(vec3 x, vec3 along) {
     float part = self_ratio(ordered_dot(x, along), ordered_dot(along, along));
     precise vec3 rest = x - along * part;
     return rest;
 }
 
-/// Returns a pair's gap with a plane along the edges, or the triangle, inside which the two are nearest. The line
-/// between the nearest points of primitives that all but touch is mostly rounding; a plane square to it may have both
-/// on either side, and then nothing could ever move again.
+/// Returns a pair's gap with a plane along the two edges, or along the triangle, inside which the two are nearest. For
+/// primitives that almost touch, the line between their nearest points is mostly rounding; a plane perpendicular to it
+/// might have both on either side, and then nothing could ever move again.
 SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
     SelfGap gap = self_gap(edges, corners);
     SelfCorners x = self_relative(corners);
@@ -169,7 +169,7 @@ SHARED SelfGap self_gap_squared(bool edges, SelfCorners corners) {
         second = has_b && has_c && has_d ? bd : nothing;
     }
     second = self_without(second, first);
-    // It is done twice: a remainder that rounding leaves the first time is small the second.
+    // This is done twice: the remainder that rounding leaves the first time is small the second time.
     vec3 square = self_without(self_without(gap.normal, first), second);
     square = self_without(self_without(square, first), second);
     precise float length = sqrt(ordered_dot(square, square));

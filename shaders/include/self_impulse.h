@@ -12,13 +12,13 @@
 #include "include/self_gap.h"
 #include "shared/self_contact_types.h"
 
-/// A pair counts as a contact from so many thicknesses on, since others may push it within a substep.
+/// A pair counts as a contact when it is nearer than so many thicknesses, since others may push it within a substep.
 const float self_touch_reach = 1.1f;
-/// A thickness counts as kept from this share on, so that what rests needs no pushing.
+/// A thickness counts as kept from this share on, so that cloth at rest needs no pushing.
 const float self_thickness_kept = 0.98f;
 
-/// Returns by how much (m) a substep makes a missing thickness good. A layer that carries a pile needs more than one
-/// that lies alone, and yields until it gets that.
+/// Returns by how much (m) a substep restores a missing thickness. A layer that carries a pile needs more than one that
+/// lies alone, and yields until it has that.
 SHARED float self_made_good(float distance, float pair_thickness, float step) {
     precise float missing = pair_thickness - distance;
     float deep = self_limited(self_ratio(missing, pair_thickness));
@@ -27,15 +27,15 @@ SHARED float self_made_good(float distance, float pair_thickness, float step) {
     return self_largest(self_least(lacking, most), 0.0f);
 }
 
-/// Returns by how much (m) a pair may come nearer, or, below zero, what it is to be led apart by.
+/// Returns by how much (m) a pair may come nearer, or, if negative, must be led apart.
 SHARED float self_freedom(float distance, float pair_thickness, float step) {
     precise float over = distance - pair_thickness;
     float lacking = self_made_good(distance, pair_thickness, step);
     return over > 0.0f ? over : -lacking;
 }
 
-/// Returns whether a pair is a contact in this substep. Edges that are nearest at an end are left to the pair of that
-/// end's particle and a triangle.
+/// Returns whether a pair is a contact in this substep. Two edges that are nearest at an end of one are left to the
+/// pair of that end's particle and a triangle.
 SHARED bool self_touches(bool edges, SelfGap gap, SelfCorners moved, float pair_thickness) {
     float along = ordered_dot(gap.normal, self_sum(gap.weights, moved));
     precise float then = gap.distance + along;
@@ -45,7 +45,7 @@ SHARED bool self_touches(bool edges, SelfGap gap, SelfCorners moved, float pair_
     return inside && gap.distance > 1.0e-12f && (then < reach || gap.distance < pair_thickness);
 }
 
-/// Returns an impulse of these parts along a contact's normal and across it, within the cone of its friction.
+/// Returns an impulse with these parts along a contact's normal and across it, limited to its friction cone.
 SHARED vec3 self_in_cone(vec3 normal, float along, vec3 tangent, float friction) {
     float pressed = self_largest(along, 0.0f);
     precise float sliding = sqrt(ordered_dot(tangent, tangent));
@@ -55,8 +55,8 @@ SHARED vec3 self_in_cone(vec3 normal, float along, vec3 tangent, float friction)
     return impulse;
 }
 
-/// Returns the impulse that a pair begins a substep with, by the force that it bore in the last one. All of it counts:
-/// with a twentieth less, heaps sink and are lifted again without end.
+/// Returns the impulse with which a pair begins a substep, from the force that it bore in the last one. The full force
+/// is used: with a twentieth less, heaps sink and are lifted again without end.
 SHARED vec3 self_begun(vec3 normal, vec3 force, float friction, float step) {
     precise vec3 impulse = force * (step * step);
     float along = ordered_dot(normal, impulse);
@@ -69,8 +69,8 @@ SHARED vec3 self_borne_force(vec3 impulse, float step) {
     return force;
 }
 
-/// Returns a contact's impulse after a round. `relative`: how the second primitive moves against the first by the
-/// impulses of the round before; `yields`: how much of that motion a unit of impulse makes, with the corners' masses
+/// Returns a contact's impulse after a round. `relative`: how the second primitive moves relative to the first under
+/// the previous round's impulses; `yields`: how much of that motion a unit of impulse causes, with the corners' masses
 /// split among their contacts.
 SHARED vec3 self_next_impulse(SelfTouch touch, vec3 relative, float yields) {
     vec3 normal = vec3(touch.normal.x, touch.normal.y, touch.normal.z),
@@ -85,14 +85,14 @@ SHARED vec3 self_next_impulse(SelfTouch touch, vec3 relative, float yields) {
     return yields > 0.0f ? next : impulse;
 }
 
-/// Returns the impulse (first cloth's masses times m) that leads a pair apart by what it lacks of its thickness.
+/// Returns the impulse (first cloth's masses times m) that leads a pair apart by the thickness that it lacks.
 SHARED float self_leading(SelfTouch touch, float yields) {
     precise float leads = self_largest(-touch.normal.w, 0.0f) * reciprocal(yields);
     return yields > 0.0f ? leads : 0.0f;
 }
 
-/// Returns how far a unit of impulse moves a pair's primitives against each other. `holds`: by corner, the sum of the
-/// weights with which contacts hold it.
+/// Returns how far a unit of impulse moves a pair's primitives relative to each other. `holds`: by corner, the sum of
+/// the weights with which contacts hold it.
 SHARED float self_yields(vec4 weights, vec4 inverse_mass, vec4 holds) {
     vec4 g = vec4(abs(weights.x), abs(weights.y), abs(weights.z), abs(weights.w));
     precise float yields =
@@ -106,14 +106,15 @@ SHARED vec3 self_moved_by(vec3 impulse, float inverse_mass) {
     return by;
 }
 
-/// Returns by how much a thickness made good moves a particle: away from the surface that it lies on (`normal`, zero if
-/// none), as friction holds it along that.
+/// Returns how far the restoring of a thickness moves a particle: away from the surface on which it lies (`normal`,
+/// zero if none), since friction holds it along the surface.
 SHARED vec3 self_led_by(vec3 by, vec3 normal) {
     precise vec3 away = normal * self_largest(ordered_dot(normal, by), 0.0f);
     return ordered_dot(normal, normal) > 0.0f ? away : by;
 }
 
-/// Returns a motion without the way by which a collider led the particle out of an overlap, which is no velocity.
+/// Returns a motion without the displacement by which a collider led the particle out of an overlap, which is no
+/// velocity.
 SHARED vec3 self_own_motion(vec3 moved, vec3 way_out) {
     precise vec3 own = moved - way_out;
     return own;
@@ -124,8 +125,8 @@ SHARED vec3 self_added(vec3 displacement, vec3 by) {
     return sum;
 }
 
-/// Impulses are summed in integers, so that the order of the sums does not matter and opposite ones cancel: this many
-/// to the mass of a particle of the first cloth that moves by the largest thickness.
+/// Returns the number of integer units for the mass of a particle of the first cloth that moves by the largest
+/// thickness. Impulses are summed as integers, so that the order of sums does not matter and opposite ones cancel.
 SHARED float self_units_per_impulse(float thickness) {
     precise float units = 1073741824.0f / thickness;
     return units;
@@ -136,8 +137,8 @@ SHARED vec3 self_impulse_of(vec3 units, float thickness) {
     return impulse;
 }
 
-/// Returns a component in units, in two parts that are summed apart, the lower one first, 2^20 to the upper one; a NaN
-/// gives 0, and what exceeds 2^46 that.
+/// Returns a component in units, as two parts that are summed separately: first the lower one, then the upper one in
+/// units of 2^20. A NaN gives 0, and larger values give 2^46.
 SHARED ivec2 self_parts(float component, float units_per_impulse) {
     const float most = 70368744177664.0f, upper_unit = 1048576.0f;
     precise float units = component * units_per_impulse;
@@ -149,7 +150,7 @@ SHARED ivec2 self_parts(float component, float units_per_impulse) {
     return ivec2(int(rest), upper);
 }
 
-/// Parts of a vector's components.
+/// The parts of a vector's components.
 struct SelfParts {
     ivec2 x, y, z;
 };
@@ -163,7 +164,7 @@ SHARED SelfParts self_parts_left(SelfParts all, SelfParts taken) {
     return SelfParts(self_difference(all.x, taken.x), self_difference(all.y, taken.y), self_difference(all.z, taken.z));
 }
 
-/// The parts that a contact gives each corner: opposite ones for the two primitives, to the last unit.
+/// The parts that a contact gives to each corner: those of the two primitives are opposite, to the last unit.
 struct SelfShares {
     SelfParts a, b, c, d;
 };
@@ -179,7 +180,7 @@ SHARED SelfShares self_shares(bool edges, vec4 weights, vec3 impulse, float unit
     return SelfShares(a, b, c, d);
 }
 
-/// Returns the words of an integer of 64 bits with the same value as two sums of parts.
+/// Returns the words of a 64-bit integer with the same value as two sums of parts.
 SHARED uvec2 self_words(uint lower_sum, uint upper_sum) {
     uint low = upper_sum << 20;
     int high = int(upper_sum) >> 12, sign = int(lower_sum) >> 31;
@@ -187,7 +188,7 @@ SHARED uvec2 self_words(uint lower_sum, uint upper_sum) {
     return uvec2(sum, uint(high + sign) + (sum < low ? 1u : 0u));
 }
 
-/// Returns the number that an integer of 64 bits in two words is nearest to.
+/// Returns the number nearest to a 64-bit integer in two words.
 SHARED float self_number(uvec2 words) {
     bool negative = (words.y >> 31) != 0u;
     uint lower = negative ? ~words.x + 1u : words.x;
@@ -207,9 +208,9 @@ SHARED float self_holds(uint sum) {
     return holds;
 }
 
-/// Returns the velocity (m a substep) with which contact leaves a particle. `pushed` is the one that impulses gave it.
-/// Where a collider after them changed its motion, to `moved`, it is that motion without the part of the thickness made
-/// good that the collider let through: none where the surface that it lies on (`normal`) bears it.
+/// Returns the velocity (m per substep) of a particle after contact. `pushed` is the one that impulses gave it. If a
+/// collider afterwards changed its motion to `moved`, the velocity is that motion without the part of the restored
+/// thickness that the collider let through, which is none where the surface on which it lies (`normal`) bears it.
 SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good, vec3 normal) {
     precise vec3 change = moved - self_added(pushed, made_good);
     float squared = ordered_dot(change, change), against = self_least(ordered_dot(made_good, change), 0.0f);
@@ -219,7 +220,7 @@ SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good, vec3 normal) 
     return squared > 0.0f ? changed : pushed;
 }
 
-/// Returns a displacement changed as contact has changed that of the next substep.
+/// Returns a displacement with the change that contact made to that of the next substep.
 SHARED vec3 self_changed_alike(vec3 last, vec3 wanted, vec3 velocity) {
     precise vec3 changed = last + (velocity - wanted);
     return changed;
@@ -232,7 +233,7 @@ SHARED float self_lag(vec3 made, vec3 wanted) {
     return lag;
 }
 
-/// Returns where a particle starts, so that it ends where its motion `made` takes it with its velocity.
+/// Returns where a particle must start to end where its motion `made` takes it, with its velocity.
 SHARED vec3 self_start(vec3 start, vec3 made, vec3 velocity) {
     precise vec3 moved = start + (made - velocity);
     return moved;

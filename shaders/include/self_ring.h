@@ -1,23 +1,24 @@
-// Rules out the cells of a patch of 3 x 3 that cannot meet in a substep because the cloth between them keeps them
-// apart. Such pairs are most of those whose boxes meet, wherever the cloth is bent or lies aslant to the axes. A pair
-// that is ruled out here would not be listed (self_listed_pair), so leaving it out changes no bit. Primitives of a grid
-// that share no corner have their corners on two sides of a column, a row or a diagonal.
+// Rules out pairs of cells, in a patch of 3 x 3, that cannot touch in a substep because the cloth between them keeps
+// them apart. Such pairs are most of those whose boxes meet, wherever the cloth is bent or lies aslant to the axes. A
+// pair that is ruled out here would not be listed (self_listed_pair), so leaving it out changes no bit. Primitives of a
+// grid that share no corner have their corners on two sides of a column, a row or a diagonal.
 #ifndef DRAPE_SELF_RING_H
 #define DRAPE_SELF_RING_H
 
 #include "include/self_contact.h"
 
-/// Particles of a column, from the first row on.
+/// The particles of a column, from the first row on.
 struct SelfColumn {
     vec3 a, b, c, d;
 };
 
-/// Particles of a patch, from the first column on.
+/// The particles of a patch, from the first column on.
 struct SelfColumns {
     SelfColumn a, b, c, d;
 };
 
-/// The most that the particles of a patch move in its plane and across it, and that they are apart across it, m.
+/// The largest motions of a patch's particles in its plane and across it, and the largest height of a particle across
+/// it, m.
 struct SelfPlay {
     float within, across, height;
 };
@@ -59,7 +60,7 @@ SHARED vec4 self_least_by_row(vec4 a, vec4 b) {
 SHARED float self_largest_of(vec4 x) { return self_largest(self_largest(x.x, x.y), self_largest(x.z, x.w)); }
 SHARED float self_least_of(vec4 x) { return self_least(self_least(x.x, x.y), self_least(x.z, x.w)); }
 
-/// By row, how far motions go along a normal, and the squares of how far they go in its plane.
+/// Returns by row how far motions go along a normal, and the squares of how far they go in its plane.
 SHARED vec4 self_across_by_row(SelfColumn motions, vec3 normal) {
     vec4 along = self_along(motions, normal);
     return vec4(abs(along.x), abs(along.y), abs(along.z), abs(along.w));
@@ -85,7 +86,7 @@ SHARED SelfPlay self_play(SelfColumns x, SelfColumns motions, vec3 normal) {
     return SelfPlay(most_within, self_largest_of(across), height);
 }
 
-/// Returns whether two cells that are apart by so much along some direction hold no pair that is listed. The line
+/// Returns whether two cells at the distance `apart` along some direction contain no pair that must be listed. The line
 /// between nearest points is at least that long; its normal leans out of the patch's plane by height / apart at most,
 /// so corners come nearer along it by no more than their motion in the plane and that share of their motion across it:
 ///   apart > kept + 2 (within + across min(1, height / apart)), both sides times `apart`, so that nothing is divided.
@@ -96,13 +97,13 @@ SHARED bool self_clear(float apart, SelfPlay play, float kept) {
     return apart > 0.0f && left > 0.0f && surely > leaning;
 }
 
-/// Distance of two groups, the one of which reaches to a or b and the other begins at c or d.
+/// Returns the distance between two groups, one of which reaches to a or b, while the other begins at c or d.
 SHARED float self_between(float a, float b, float c, float d) {
     precise float apart = self_least(c, d) - self_largest(a, b);
     return apart;
 }
 
-/// Places of a patch's particles along a direction: by column, by row.
+/// The places of a patch's particles along a direction: by column, by row.
 struct SelfSpread {
     vec4 a, b, c, d;
 };
@@ -114,9 +115,10 @@ SHARED SelfSpread self_turned(SelfSpread x) {
                       vec4(x.a.z, x.b.z, x.c.z, x.d.z), vec4(x.a.w, x.b.w, x.c.w, x.d.w));
 }
 
-/// Bits of the pairs of cells that a gap between columns keeps apart. Neighbours: the first column of the cell from the
-/// rest of it and of the one to its right (1), that of the cell below from the one to the right (2). Pairs two columns
-/// apart: in the same rows (4), with the second one row on (8) or back (16), or two (32, 64). Rows work alike.
+/// Returns bits of the pairs of cells that a gap between columns separates. Neighbours: the first column of the cell
+/// from the rest of it and of the cell to its right (1); that of the cell below from the cell to the right (2). Pairs
+/// two columns apart: in the same rows (4); with the second cell one row on (8) or back (16); or two (32, 64). Rows
+/// work alike.
 SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
     float second = self_least(self_least(x.b.x, x.b.y), self_least(x.c.x, x.c.y));
     vec4 lower = self_largest_by_row(x.a, x.b), upper = self_least_by_row(x.c, x.d);
@@ -129,9 +131,9 @@ SHARED uint self_columns_clear(SelfSpread x, SelfPlay play, float kept) {
            (self_clear(self_between(lower.z, lower.w, upper.x, upper.y), play, kept) ? 64u : 0u);
 }
 
-/// Bits of the pairs that a gap across the diagonal from the second column to the second row keeps apart. The cell
-/// itself: its first particle from the others (1). Its neighbours right (2), below (4) and past its last corner (8):
-/// that particle and those on the diagonal from the neighbour's.
+/// Returns bits of the pairs that a gap across the diagonal from the second column to the second row separates. The
+/// cell itself: its first particle from the others (1). Its neighbours to the right (2), below (4) and past its last
+/// corner (8): this particle, and those on the diagonal, from the neighbour's.
 SHARED uint self_diagonal_clear(SelfSpread x, SelfPlay play, float kept_here, float kept) {
     float reached = self_largest(x.a.x, self_largest(x.b.x, x.a.y));
     float here = self_least(self_least(x.b.x, x.a.y), x.b.y), right = self_least(self_least(x.c.x, x.b.y), x.c.y),
@@ -151,8 +153,8 @@ SHARED SelfColumn self_column_from(SelfColumn x, vec3 from) {
     return SelfColumn(a, b, c, d);
 }
 
-/// Bits of the pairs of self_close_pair that are ruled out. A patch over an edge of the cloth repeats its last column
-/// or row.
+/// Returns the bits of the pairs of self_close_pair that are ruled out. A patch over an edge of the cloth repeats its
+/// last column or row.
 SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, SelfColumns at, SelfColumns motions) {
     // Coordinates relative to the first particle are small.
     SelfColumns x = SelfColumns(self_column_from(at.a, at.a.a), self_column_from(at.b, at.a.a),
@@ -169,12 +171,12 @@ SHARED uint self_close_apart(SelfContactPush push, SelfCloth cloth, SelfColumns 
     precise float slack = cloth.thickness * self_listed_share;
     precise float doubt = self_doubt(farthest) * 4.0f + push.least;
     precise float kept = cloth.thickness + doubt;
-    // Primitives that only a diagonal keeps apart, not past the last corner, are so far apart in the flat cloth.
+    // Primitives that only a diagonal separates, except past the last corner, are this far apart in the flat cloth.
     precise float kept_here = self_largest(self_least(cloth.thickness, half_flat), slack) + doubt;
     uint by_columns = self_columns_clear(self_spread(x, columns), play, kept),
          by_rows = self_columns_clear(self_turned(self_spread(x, rows)), play, kept),
          by_diagonal = self_diagonal_clear(self_spread(x, self_unit(across)), play, kept_here, kept);
-    // Neighbours need every gap that keeps some of their primitives apart, other pairs any one.
+    // Neighbours need all gaps that separate some of their primitives; other pairs need only one.
     uint bits = (by_diagonal & 1u) | (by_diagonal & 2u & (by_columns << 1)) | (by_diagonal & 4u & (by_rows << 2)) |
                 (by_diagonal & 8u) | ((by_columns & by_rows & 2u) << 3);
     return bits | ((by_columns & 0x7cu) << 3) | ((by_rows & 0x60u) << 3) | ((by_rows & 0x1cu) << 8);

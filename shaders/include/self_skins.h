@@ -1,11 +1,12 @@
-// How particles of the sheet meet each other, where a cloth has maps of that. The includer has include/self_cloths.h.
+// The thickness and friction of particles on the sheet, where a cloth has maps of them. The includer has
+// include/self_cloths.h.
 layout(constant_id = 19) const bool has_skins = false;
 // By place; x: thickness kept between layers, m; y: square root of the friction coefficient.
 layout(set = 0, binding = 15, std430) readonly buffer Skins { vec2 skins[]; };
 
 vec2 skin_at(uint corner) { return skins[place_of(self_texel(corner))]; }
 
-/// Returns the thickness that a pair keeps, m, and its friction. `weights`: its gap's.
+/// Returns the thickness that a pair keeps, m, and its friction. `weights`: those of its gap.
 vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
     float thickness = self_mean_thickness(one, other), friction = self_pair_friction(one, other);
@@ -14,7 +15,7 @@ vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
         thickness = self_thickness_there(weights, vec4(a.x, b.x, c.x, d.x));
         friction = self_friction_there(edges, weights, vec4(a.y, b.y, c.y, d.y));
     }
-    // Distances are rounded as on the sheet that a member has alone.
+    // Distances are rounded as on the sheet of a member alone.
     ivec2 corner = ivec2(0);
     if (member_count > 1) corner = self_texel(pair.x) / push.member_size * push.member_size;
     float kept =

@@ -1,10 +1,9 @@
-// Sums of impulses by place (include/self_impulse.h). Where `wide`, an atomic of 64 bits takes both parts of a
-// component, which halves the atomics. The // includer has SUMS_SLOT, the binding, and where it reads sums
-// SUMS_IN_SLOT.
+// Sums of impulses by place (include/self_impulse.h). Where `wide`, a 64-bit atomic adds both parts of a component,
+// which halves the atomics. The includer defines SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
 layout(constant_id = 25) const bool wide = false;
 
 #ifdef SUMS_SLOT
-/// The first of the two vectors of a place's sum.
+/// Returns the index of the first of the two vectors of a place's sum.
 int sum_at(int which, int place) { return 2 * (which * push.grid.x * push.grid.y + place); }
 layout(set = 0, binding = SUMS_SLOT, std430) buffer WideSums { u64vec2 sums_out[]; }
 wide_sums;
@@ -34,7 +33,7 @@ void add_weight(uint corner, uint weight) {
         atomicAdd(sums.sums_out[at].z, weight);
 }
 
-/// Adds what a contact gives each corner to a sum. `largest`: its scene's largest thickness.
+/// Adds what a contact gives to each corner to a sum. `largest`: the largest thickness of its scene.
 void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impulse, float largest) {
     SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(largest));
     add_parts(which, corners.x, shares.a);
@@ -44,7 +43,7 @@ void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impuls
 }
 #endif
 #ifdef SUMS_IN_SLOT
-layout(set = 0, binding = SUMS_IN_SLOT, rgba32f) uniform readonly imageBuffer sums_in;  // integers, by their bits
+layout(set = 0, binding = SUMS_IN_SLOT, rgba32f) uniform readonly imageBuffer sums_in;  // integers, as bits
 
 SelfSum sum_of(int which, int place) {
     int texel = 2 * (which * push.grid.x * push.grid.y + place);
@@ -56,7 +55,7 @@ float sum_value(uint first, uint second) {
     return self_number(self_words(first, second));
 }
 
-/// Returns an impulse, in masses of the first cloth's particle times m. `largest`: its scene's largest thickness.
+/// Returns an impulse, in masses of the first cloth's particle times m. `largest`: the largest thickness of its scene.
 vec3 impulse_of(SelfSum sum, float largest) {
     vec3 units =
         vec3(sum_value(sum.xy.x, sum.xy.y), sum_value(sum.xy.z, sum.xy.w), sum_value(sum.z_weight.x, sum.z_weight.y));

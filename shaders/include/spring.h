@@ -1,21 +1,21 @@
-// The one projection of a spring (distance constraint), which every solver of springs one by one uses, and the spring
-// that an invocation of a pass owns. Sources: Jakobsen 2001 (relaxation, weighted by inverse mass), Macklin et al. 2016
-// "XPBD" eq. 18 (compliance and multiplier).
+// The projection of a spring (distance constraint), which every solver that takes springs one by one uses, and which
+// spring an invocation of a pass owns. Sources: Jakobsen 2001 (relaxation, weighted by inverse mass), Macklin et al.
+// 2016 "XPBD" eq. 18 (compliance and multiplier).
 #ifndef DRAPE_SPRING_H
 #define DRAPE_SPRING_H
 
 #include "include/vector.h"
 
-/// First particle (column, row) of spring `pair` of a parity pass; the second is `offset` away. Springs whose offset
-/// leads to the left start one column in.
+/// Returns the first particle (column, row) of spring `pair` of a parity pass; the second is `offset` away. Springs
+/// whose offset leads to the left start one column in.
 SHARED ivec2 spring_owner(ivec2 pair, ivec2 offset, int parity_axis, int parity) {
     int x = parity_axis == 0 ? 2 * pair.x + parity : pair.x;
     int y = parity_axis == 1 ? 2 * pair.y + parity : pair.y;
     return ivec2(offset.x < 0 ? x + 1 : x, y);
 }
 
-/// Share of a spring's stiffness that the cells beside it give. A spring along a border has one cell instead of two; a
-/// diagonal belongs to one cell alone and always has all of it.
+/// Returns the share of a spring's stiffness that the cells beside it give. A spring along a border has one cell
+/// instead of two; a diagonal belongs to one cell and always has its full stiffness.
 SHARED float border_share(ivec2 owner, ivec2 offset, ivec2 grid) {
     if (offset.y == 0 && (owner.y == 0 || owner.y == grid.y - 1)) return 0.5f;
     if (offset.x == 0 && (owner.x == 0 || owner.x == grid.x - 1)) return 0.5f;
@@ -35,24 +35,26 @@ SHARED vec3 moved_by(vec3 displacement, vec3 correction, float weight) {
     return moved;
 }
 
-/// Share of a spring's stiffness that acts; a spring pushed together keeps `compression` of it, as fabrics buckle below
-/// the grid's spacing (docs/physics.md 1). `excess`: the spring's length over that at rest, or its tension, m.
+/// Returns the share of a spring's stiffness that acts; a compressed spring has `compression` of it, since fabrics
+/// buckle on scales below the grid's spacing (docs/physics.md 1). `excess`: the spring's length minus its rest length,
+/// or its tension, m.
 SHARED float acting_share(float share, float compression, float excess) {
     precise float pushed = share * compression;
     return excess < 0.0f ? pushed : share;
 }
 
-/// Tension (m) that balances a spring extended by so much, as an extension of the spring's whole stiffness, so that it
-/// means the same on both sides of the rest length. (Where it is taken for an extension of the stiffness that acts, a
-/// spring that snaps gives back 1/compression times what it took, and the cloth explodes.)
+/// Returns the tension (m) that balances a spring extended by `excess`, as an extension of the spring's full stiffness,
+/// so that it means the same on both sides of the rest length. (If it were an extension of the stiffness that acts, a
+/// spring that snaps from compression to extension would return 1/compression times the energy that it took, and the
+/// cloth would explode.)
 SHARED float balancing_tension(float excess, float compression) {
     precise float pushed = excess * compression;
     return excess < 0.0f ? pushed : excess;
 }
 
 struct SpringResult {
-    vec3 correction;  // for the second particle times its w; the first gets minus it times its own
-    float tension;    // m; the spring's so far, as an extension of its whole stiffness
+    vec3 correction;  // for the second particle, times its w; the first gets the negative, times its own w
+    float tension;    // m; the spring's tension so far, as an extension of its full stiffness
 };
 
 /// `edge` = second - first, m; `weight_sum` = w_first + w_second (relative inverse masses); `share` in [0, 1] scales

@@ -1,14 +1,15 @@
-// Passes write the images of a cloth's state by these macros, where `buffered` through their buffer views, storage
-// buffers of the same memory; on the default device image stores take longer (docs/devices.md). Loads go through the
-// images either way. VECTOR_KEPT declares an image whose texels are not all written; TRIPLE_OUT and STORE_TRIPLE one
-// that is updated in place where the value `beside` xyz stays, which a buffer need not be told. Those of COHERENT_...
-// are read again by other invocations of the pass. The includer has `push.grid`. STORE_IN_COLUMNS and LOAD_IN_COLUMNS
-// are for images of other columns, as the sheet of contact; the latter loads what VECTOR_KEPT declared.
+// Macros by which passes write the images of a cloth's state. Where `buffered`, they write through the images' buffer
+// views, storage buffers in the same memory; on the default device image stores take longer (docs/devices.md). Loads
+// use the images in either case. VECTOR_KEPT declares an image of which only some texels are written. TRIPLE_OUT and
+// STORE_TRIPLE declare and update one in which the value beside xyz stays; a buffer needs no read for that. Images of
+// COHERENT_... are read again by other invocations of the pass. The includer has `push.grid`. STORE_IN_COLUMNS and
+// LOAD_IN_COLUMNS are for images with another number of columns, as the sheet of contact; the latter loads what
+// VECTOR_KEPT declared.
 #include "include/together.h"
 
 layout(constant_id = 27) const bool buffered = false;
 
-/// Texels from one row of a buffer view to the next; rows begin at multiples of state_row_alignment bytes.
+/// Returns the texels from one row of a buffer view to the next; rows begin at multiples of state_row_alignment bytes.
 int vector_pitch(int columns) { return (columns + state_row_alignment / 16 - 1) & ~(state_row_alignment / 16 - 1); }
 int vector_pitch() { return vector_pitch(push.grid.x); }
 int scalar_pitch() { return (push.grid.x + state_row_alignment / 4 - 1) & ~(state_row_alignment / 4 - 1); }
@@ -18,7 +19,7 @@ struct StateTriple {
     float beside;
 };
 
-// An image and its view have one binding and one name; a pipeline has only one of them.
+// An image and its view share a binding and a name; a pipeline uses only one of them.
 #define VIEW(access, slot, type, name, view)                                                     \
     layout(set = 0, binding = slot, std430) access buffer name##_##view##_block { type name[]; } \
     name##_##view

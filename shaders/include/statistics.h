@@ -16,7 +16,7 @@ SHARED bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x
 
 SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
-/// Sums and maxima over nothing: -0 + x is x for every x.
+/// Returns the sums and maxima of nothing: -0 + x is x for every x.
 SHARED StatisticsRecord empty_statistics() {
     return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
                             vec4(lowest_float, lowest_float, lowest_float, lowest_float), vec4(0.0f, 0.0f, 0.0f, 0.0f),
@@ -33,7 +33,7 @@ SHARED vec4 larger(vec4 a, vec4 b) {
     return vec4(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z, a.w > b.w ? a.w : b.w);
 }
 
-/// Place of the larger of two values; of equal ones it is the lower index, whatever the order of joining.
+/// Returns the place of the larger of two values; of equal ones the lower index, whatever the order of joining.
 SHARED uint place_of_larger(float a, float b, uint place_a, uint place_b) {
     return a > b ? place_a : b > a ? place_b : place_a < place_b ? place_a : place_b;
 }
@@ -53,7 +53,7 @@ SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
                             places_of_larger(a, b));
 }
 
-/// Mass of a particle of a cloth without holes, in units of an inner particle's.
+/// Returns the mass of a particle in a cloth without holes, in units of an inner particle's.
 SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
     float across = particle.x == 0 || particle.x == grid.x - 1 ? 0.5f : 1.0f;
     float down = particle.y == 0 || particle.y == grid.y - 1 ? 0.5f : 1.0f;
@@ -61,8 +61,8 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
     return share;
 }
 
-/// Statistics of a particle without its springs. It counts as not finite when its position or its velocity is.
-/// `velocity`: h times that of the frame's end, m.
+/// Returns the statistics of a particle without its springs. It counts as not finite if its position or its velocity is
+/// not. `velocity`: h times that of the frame's end, m.
 SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float share, vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
     bool finite = is_finite(position) && is_finite(velocity);
@@ -103,7 +103,7 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
                                                   : vec4(longer, lowest_float, shorter, lowest_float));
     record.counts.z += counts && !shear ? 1u : 0u;
     record.counts.w += counts && shear ? 1u : 0u;
-    if (shear) return record;  // a constant in every call
+    if (shear) return record;  // `shear` is a constant in every call
     precise float error = (balancing_tension(extension, compression) - tension) / rest_length;
     precise float squared_error = error * error;
     record.errors = ordered_sum(record.errors, vec4(counts ? squared_error : -0.0f, -0.0f, -0.0f, -0.0f));
@@ -113,8 +113,9 @@ SHARED StatisticsRecord add_spring_strain(StatisticsRecord record, vec3 first, v
     return record;
 }
 
-/// Returns a particle's `record` plus the energy of a bending element or a cell's twist that is `beyond` its rest (m),
-/// for half of its constant (N/m) and the `share` of it that acts, 0 = no such element (include/bend.h).
+/// Returns a particle's `record` plus the energy of a bending element or a cell's twist that deviates by `beyond` from
+/// its rest (m). `half_constant` is half of its constant (N/m), `share` the share of it that acts, 0 = the element does
+/// not exist (include/bend.h).
 SHARED StatisticsRecord add_bending(StatisticsRecord record, vec3 beyond, float half_constant, float share) {
     bool counts = share > 0.0f && is_finite(beyond);
     precise float stored = share * half_constant * ordered_dot(beyond, beyond);

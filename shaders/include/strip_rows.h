@@ -1,7 +1,7 @@
-// Streams that go down the rows of a strip of columns share this (spring_stream.comp, twist_stream.comp). A subgroup
-// has a strip, an invocation `columns` of them, an even number, and beside those a ghost, the first column of the
-// invocation on the right. Neighbouring strips overlap by `strip_halo` columns at either end, which other strips store.
-// The includer has the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
+// Shared code of kernels that go down the rows of a strip of columns (spring_stream.comp, twist_stream.comp). A
+// subgroup has a strip; an invocation has `columns` of its columns, an even number, and also a ghost, a copy of the
+// first column of the invocation on the right. Neighbouring strips overlap by `strip_halo` columns at either end, which
+// other strips store. The includer has the images `position` and `displacement_in`, `displacement_out` and `push.grid`.
 #include "include/row_bands.h"
 const int ghost = columns;
 
@@ -9,20 +9,20 @@ struct Particle {
     vec3 position;
     float weight;
     vec3 displacement;
-    float mark;  // mark beside the displacement (verlet.h)
+    float mark;  // the mark beside the displacement (verlet.h)
 };
 
 int first_column() {
     return int(gl_WorkGroupID.x) * (strip_width - 2 * strip_halo) + int(gl_SubgroupInvocationID) * columns;
 }
 
-/// Returns the value of the invocation on the right; a strip's last one gets its own, which is of no use.
+/// Returns the value of the invocation on the right; a strip's last invocation gets its own value, which is not used.
 vec3 from_right(vec3 value) {
     int lane = int(gl_SubgroupInvocationID);
     return subgroupShuffle(value, uint(lane + 1 < stream_lanes ? lane + 1 : lane));
 }
 
-/// Outside the grid it loads a copy of its border.
+/// Outside the grid, returns a copy of the particle on its border.
 Particle load(int x, int y) {
     ivec2 texel = ivec2(x < push.grid.x ? x : push.grid.x - 1, y < push.grid.y ? y : push.grid.y - 1);
     vec4 start = LOAD(position, texel), moved = LOAD(displacement_in, texel);
@@ -38,7 +38,7 @@ void load_row(int y, out Particle row[columns + 1]) {
     row[ghost].mark = 0.0f;
 }
 
-/// Returns whether this strip stores column c of the invocation; other strips store its halo.
+/// Returns whether this strip stores column c of the invocation; other strips store this one's halo.
 bool is_own(int c) {
     int within = int(gl_SubgroupInvocationID) * columns + c;
     int first = gl_WorkGroupID.x == 0 ? 0 : strip_halo;

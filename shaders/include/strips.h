@@ -1,8 +1,8 @@
 // Loops over a part of a grid's particles, counted row by row. `statement`, a call for particle `texel`, runs once for
-// each of the `strip_length` particles that an invocation takes in turn: on the default device a workgroup costs as
-// much to begin as a dozen particles or more (docs/devices.md). The invocations of one of its subgroups take particles
-// beside each other, so that memory is read in its order; on any other device, where `strip_length` is 1, all do. The
-// loop ends at its bottom (include/every.h).
+// each of the `strip_length` particles that an invocation processes: on the default device it costs as much to begin a
+// workgroup as to process a dozen particles or more (docs/devices.md). The invocations of one of its subgroups take
+// adjacent particles, so that memory is read in order; on any other device, where `strip_length` is 1, all invocations
+// do. The loop has its test at the bottom (include/every.h).
 #include "include/places.h"
 layout(constant_id = 20) const int strip_length = 1;
 const int strip_lanes = 8;  // invocations of a subgroup of the default device
@@ -22,8 +22,8 @@ int strip_first() {
             if (place >= end) break;                              \
         }                                                         \
     }
-// Loops over those of the particles for which the call `test` says that there is something to do (include/every.h,
-// FOR_FOUND); at most 32 an invocation.
+// Loops over those of the particles for which the call `test` returns true (include/every.h, FOR_FOUND); at most 32 for
+// each invocation.
 #define FOR_STRIP_FOUND(texel, size, test, statement)                                       \
     {                                                                                       \
         int first = strip_first(), count = (size).x * (size).y;                             \

@@ -1,7 +1,6 @@
-// The passes that carry a cloth's state from substep to substep share its images and the compensated sums that move
-// position and displacement on. Where `windy`, the wind's force is one of the images. The includer has verlet.h,
-// `push.grid` and `in_place`: whether the pass writes the images that it reads, but for the displacement of some
-// predictions.
+// The images and compensated sums for passes that carry a cloth's state from substep to substep, which advance position
+// and displacement. Where `windy`, the wind's force is one of the images. The includer has verlet.h, `push.grid` and
+// `in_place`: whether the pass writes the images that it reads, except for the displacement of some predictions.
 #include "include/state_store.h"
 #define STATE_OUT(slot, name) \
     TRIPLE_OUT(slot, name);   \
@@ -32,7 +31,7 @@ void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     STORE_STATE(position_remainder_out, texel, advanced.remainder, 0.0f);
 }
 
-/// Adds `increment` to a displacement, less the share `loss` that the wind's drag takes away. `displacement.w` is its
+/// Adds `increment` to a displacement, minus the share `loss` that the wind's drag takes away. `displacement.w` is the
 /// mark (verlet.h).
 void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float loss) {
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
@@ -41,7 +40,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
     STORE_STATE(displacement_remainder_out, texel, stepped.remainder, 0.0f);
 }
 
-/// Force on the particle of a texel, N; w: its drag, N/m.
+/// Returns the force on the particle of a texel, N; w: its drag, N/m.
 vec4 force_on(ivec2 texel) {
     if (windy) return LOAD(wind_force, texel);
     return vec4(0.0f, 0.0f, 0.0f, 0.0f);

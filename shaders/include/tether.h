@@ -10,7 +10,7 @@ SHARED bool is_beyond(vec3 edge, float length) {
     return ordered_dot(edge, edge) > reach_squared;
 }
 
-/// Correction (m) of a particle at the end of `edge`, which starts at its anchor; zero within `length`.
+/// Returns the correction (m) of a particle at the end of `edge`, which starts at its anchor; zero within `length`.
 SHARED vec3 tether_correction(vec3 edge, float length) {
     if (!is_beyond(edge, length)) return vec3(0.0f, 0.0f, 0.0f);
     precise float current = sqrt(ordered_dot(edge, edge));

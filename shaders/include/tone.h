@@ -21,7 +21,7 @@ SHARED float toned(float radiance) {
     return above > 0.0f ? tone_knee + (1.0f - tone_knee) * shoulder : radiance;
 }
 
-/// Returns the radiance that is shown as `shown` (0..1), so that a colour looks as the scene gives it.
+/// Returns the radiance that is shown as `shown` (0..1), so that a colour looks as the scene states it.
 SHARED float untoned(float shown) {
     float white = (tone_white - tone_knee) / (1.0f - tone_knee);
     float above = (shown - tone_knee) / (1.0f - tone_knee), left = 1.0f - above;

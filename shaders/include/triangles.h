@@ -5,7 +5,7 @@
 
 const int triangles_around_particle = 6;
 
-/// Triangle k (0..5) around a particle, in the order that every sum over them takes. xy: its cell relative to the
+/// Returns triangle k (0..5) around a particle, in the order of every sum over triangles. xy: its cell relative to the
 /// particle; z: 1 for the upper and 2 for the lower triangle (its bit in the cell image).
 SHARED ivec4 triangle_around(int k) {
     if (k == 0) return ivec4(-1, -1, 2, 0);
@@ -16,13 +16,13 @@ SHARED ivec4 triangle_around(int k) {
     return ivec4(0, 0, 1, 0);
 }
 
-/// Corner (0..2) of a cell's upper (1) or lower (2) triangle, relative to the cell.
+/// Returns corner (0..2) of a cell's upper (1) or lower (2) triangle, relative to the cell.
 SHARED ivec2 triangle_corner(int which, int corner) {
     if (which == 1) return ivec2(corner == 1 ? 1 : 0, corner == 2 ? 1 : 0);
     return ivec2(corner == 2 ? 0 : 1, corner == 0 ? 0 : 1);
 }
 
-/// Index of the corner that lies at `offset` from the triangle's cell.
+/// Returns the index of the corner that lies at `offset` from the triangle's cell.
 SHARED int corner_of_triangle(int which, ivec2 offset) {
     for (int corner = 0; corner < 2; ++corner) {
         ivec2 at = triangle_corner(which, corner);

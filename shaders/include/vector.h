@@ -1,4 +1,4 @@
-// Products in a fixed order, which dot(), cross() and length() leave to the driver.
+// Products in a fixed order, since dot(), cross() and length() leave the order to the driver.
 #ifndef DRAPE_VECTOR_H
 #define DRAPE_VECTOR_H
 
@@ -7,7 +7,7 @@ SHARED float ordered_dot(vec3 a, vec3 b) {
     return sum;
 }
 
-/// Code that would divide by the same number more than once multiplies by this.
+/// Code that would divide several times by the same number multiplies by this instead.
 SHARED float reciprocal(float x) {
     precise float inverse = 1.0f / x;
     return inverse;

@@ -1,10 +1,10 @@
-// This header has the wind's force on a triangle and the normal of a cell (docs/physics.md 6).
+// The wind's force on a triangle, and the normal of a cell (docs/physics.md 6).
 #ifndef DRAPE_WIND_H
 #define DRAPE_WIND_H
 
 #include "include/vector.h"
 
-/// Force of the wind on a triangle, or on a particle from all of its triangles.
+/// The force of the wind on a triangle, or on a particle from all of its triangles.
 struct WindForce {
     vec3 force;  // N
     float drag;  // per triangle, kg/s; per particle, N per metre that the substep's displacement changes
@@ -35,7 +35,7 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
     precise float speed = sqrt(squared);
     precise float resisting = 2.0f * facing <= speed ? 2.0f * speed : squared / facing;
     precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * area;
-    // The values are chosen, not branched on (include/line.h).
+    // The values are selected, not branched on (include/line.h).
     bool is_one = doubled_squared > 0.0f;
     return WindForce(is_one ? force : vec3(0.0f, 0.0f, 0.0f), is_one ? drag : 0.0f);
 }
@@ -44,7 +44,7 @@ SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, v
 /// addition of a zero.
 SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 
-/// One corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
+/// Returns one corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
 SHARED WindForce wind_share(vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step, vec3 wind,
                             float drag_coefficient, float lift_coefficient, float area_limit) {
     const float third = 1.0f / 3.0f;
@@ -63,14 +63,14 @@ SHARED WindForce add_share(WindForce sum, WindForce share) {
     return WindForce(force, drag);
 }
 
-/// `sum` plus the weight of a particle under `gravity`, of whose inverse mass an inner particle's is 1. One that no
-/// force moves has inverse mass 0, and gets none.
+/// Returns `sum` plus the weight of a particle under `gravity`; the inverse mass of an inner particle is 1. A particle
+/// that no force moves has inverse mass 0, and no weight.
 SHARED vec3 add_weight(vec3 sum, vec3 gravity, float inner_mass, float inverse_mass) {
     precise vec3 total = sum + gravity * (inner_mass / inverse_mass);
     return inverse_mass > 0.0f ? total : sum;
 }
 
-/// `sum` plus a triangle's area vector (twice its area times its normal).
+/// Returns `sum` plus a triangle's area vector (twice its area times its normal).
 SHARED vec3 add_area_vector(vec3 sum, vec3 p0, vec3 p1, vec3 p2) {
     precise vec3 total = sum + ordered_cross(p1 - p0, p2 - p0);
     return total;

@@ -2,9 +2,9 @@
 // defines RECORD, a type for which there is a function `joined`.
 shared RECORD lane_records[workgroup_width];
 
-/// Rows that an invocation joins, at most `most` from a particle of its column on. It meets a barrier afterwards, so
-/// even one past the last column takes a turn. On the default device a loop over all `most` would cost the missing ones
-/// too.
+/// Returns the number of rows that an invocation joins, at most `most`, from a particle of its column on. All
+/// invocations meet a barrier afterwards, so even one past the last column takes part. On the default device a loop
+/// over all `most` rows would also pay for the missing ones.
 int rows_of(ivec2 first, int most, ivec2 grid) { return first.x < grid.x ? min(most, grid.y - first.y) : 0; }
 
 /// Joins the records of all lanes; every lane must call it. The result is lane 0's.

@@ -20,7 +20,7 @@ struct PlannedSweep {
     Sweep sweep;
 };
 
-/// The chosen cases. Throws UsageError when there is none.
+/// Returns the chosen cases. Throws UsageError when there is none.
 std::vector<PlannedSweep> planned(const CaseFilter& filter, const std::vector<Problem>& problems) {
     std::vector<PlannedSweep> plan;
     for (const Problem& problem : problems)
@@ -96,7 +96,7 @@ class AccuracyRun {
                 at_floor = is_at_floor(*p.problem, results_.back());
     }
 
-    /// Whether there is a result.
+    /// Runs a setting. Returns whether there is a result.
     bool run_setting(const PlannedSweep& p, const Setting& setting) {
         const auto measure = [&] {
             return run_case(device_, *p.problem, p.sweep.size, setting, references_,
@@ -115,8 +115,9 @@ class AccuracyRun {
         return result.has_value();
     }
 
-    /// A sweep's steps are wide, and who happens to have a setting just fine enough would win: the fewest substeps (or
-    /// iterations of one substep) that keep the target are looked for, among all settings like the sweep's.
+    /// A sweep's steps are wide, and chance would favour the method that has a setting just fine enough. So this
+    /// searches for the fewest substeps (or iterations of one substep) that keep the target, among all settings like
+    /// the sweep's.
     void bisect(const PlannedSweep& p, const Target& target) {
         if (p.sweep.settings.size() < 2) return;
         Setting setting = p.sweep.settings[0];
@@ -130,7 +131,7 @@ class AccuracyRun {
             std::vector<SweepPoint> points;
             for (const CaseResult& result : results_) {
                 if (!is_like(result)) continue;
-                // The reference is farther off than what is wanted: nothing can be told.
+                // The reference's error exceeds the target, so nothing can be concluded.
                 if (target.metric == p.problem->metric && result.metric("reference_error") > target.limit) return;
                 const std::optional<double> found = result.metric(target.metric);
                 points.push_back(

@@ -1,4 +1,4 @@
-// Benchmarks share what they are asked for (options: commands/bench_options.h), the way through their cases, and their
+// What all benchmarks share: the request (its options are in commands/bench_options.h), the loop over cases, and the
 // results.
 #pragma once
 
@@ -37,12 +37,12 @@ struct SelectedCases : BenchRequest {
 
 struct BenchSummary {
     std::string text;    ///< the tables
-    std::string missed;  ///< what the results do not keep, for an error message; empty: nothing
+    std::string missed;  ///< which limits the results miss, for an error message; empty: none
     std::size_t run_count = 0, kept_count = 0, left_out_count = 0;
-    std::uint64_t validation_count = 0;  ///< messages
+    std::uint64_t validation_count = 0;  ///< validation messages
 };
 
-/// Runs from when it is made.
+/// Measures the time since it was made.
 class Stopwatch {
   public:
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -51,7 +51,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Thrown when a request's `stop` said so.
+/// Thrown when a request's `stop` returned true.
 struct Stopped {};
 
 /// --filter
@@ -60,9 +60,9 @@ class CaseFilter {
     /// Throws UsageError when the text is no regular expression.
     explicit CaseFilter(const std::string& text);
     bool accepts(const std::string& name) const { return std::regex_search(name, expression_); }
-    /// Throws UsageError: nothing is left; `example`: a name.
+    /// Throws UsageError, since no case is left; `example`: a name that exists.
     [[noreturn]] void refuse(const std::string& example) const;
-    /// The cases whose `name` is accepted. Throws UsageError when there is none.
+    /// Returns the cases whose `name` is accepted. Throws UsageError when there is none.
     template <class Case>
     std::vector<Case> chosen(std::vector<Case> cases, const std::string& example) const {
         std::erase_if(cases, [this](const Case& each) { return !accepts(each.name); });
@@ -75,15 +75,15 @@ class CaseFilter {
     std::regex expression_;
 };
 
-/// --budget: a case that is begun must be done by then. The seconds of a case follow from its work, in any unit, and
-/// the rate of those done so far.
+/// --budget: a case that is begun must end within it. The seconds of a case follow from its work, in any unit, and the
+/// rate of the cases done so far.
 class Budget {
   public:
     /// `first_rate`: seconds per unit of work, before anything is measured.
     Budget(std::optional<double> minutes, double first_rate) : minutes_(minutes), first_rate_(first_rate) {}
 
-    void left(double work) { left_ += work; }      ///< is to be done
-    void left_out(double work) { left_ -= work; }  ///< no longer
+    void left(double work) { left_ += work; }      ///< this work is still to be done
+    void left_out(double work) { left_ -= work; }  ///< it is not to be done any more
     void done(double work, double seconds);
     double seconds(double work) const { return work * (work_ > 0 ? seconds_ / work_ : first_rate_); }
     double seconds_left() const { return seconds(left_); }
@@ -96,28 +96,28 @@ class Budget {
     Stopwatch watch_;
 };
 
-/// The cases of a benchmark one after the other: known results are kept, cases for which no time is left are left out,
-/// the others are run, and each is told of.
+/// Goes through the cases of a benchmark: known results are kept, cases without time left are left out, the others are
+/// run, and each is reported.
 class CaseLoop {
   public:
     CaseLoop(const BenchRequest& request, std::optional<double> budget_minutes, double first_rate)
         : request_(request), budget_(budget_minutes, first_rate) {}
 
-    /// A case to come, with its work.
+    /// Announces a case, with its work.
     void plan(double work);
-    /// The next case is not wanted after all.
+    /// Removes the next case, which is not wanted after all.
     void skip(double work);
 
-    /// Whether there is time for the next case. Throws Stopped.
+    /// Returns whether there is time for the next case. Throws Stopped.
     bool begin(double work);
-    /// The case that was begun cannot be run.
+    /// Notes that the case that was begun cannot be run.
     void leave_out() { ++summary_.left_out_count; }
     void done(double work, const std::string& text);
-    /// So many seconds of the case that was begun went into what other cases need as well.
+    /// Notes that so many seconds of the case that was begun were spent on results that other cases need as well.
     void put_aside(double seconds) { aside_ += seconds; }
 
-    /// The result of the next case from the store, or by `run`, whose result is kept there and told of by `text`;
-    /// nothing where no time is left for it.
+    /// Returns the result of the next case, from the store or by `run`; the latter is stored and reported by `text`.
+    /// Nothing: no time is left for the case.
     template <class Result, class Run, class Text>
     std::optional<Result> next(ResultStore<Result>& store, const std::string& key, double work, const Run& run,
                                const Text& text) {
@@ -134,7 +134,7 @@ class CaseLoop {
         return result;
     }
 
-    /// The counts.
+    /// Returns how many cases were run, kept and left out.
     const BenchSummary& summary() const { return summary_; }
 
   private:
@@ -145,7 +145,7 @@ class CaseLoop {
     double begun_ = 0, aside_ = 0;
 };
 
-/// Names the program and device that results were measured with, and whether all were.
+/// The program and the device that measured the results, and whether all cases were measured.
 struct ReportHead {
     std::string program_version, created;  ///< UTC
     std::string device, driver;            ///< driver with its version
@@ -161,10 +161,10 @@ ReportHead report_head(const DeviceInfo& device, bool is_short = false, bool com
 void write_results(const SelectedCases& request, const std::string& json, const std::string& csv,
                    const std::map<std::string, std::string>& pictures);
 
-/// "1:02:03", "2:03", rounded up.
+/// Returns "1:02:03" or "2:03", rounded up.
 std::string duration_text(double seconds);
 
-/// Makes a folder for files to come. Throws OutputError.
+/// Makes a folder for files. Throws OutputError.
 void make_folder(const std::string& folder);
 
 }  // namespace drape::bench

@@ -23,11 +23,11 @@ struct Sample {
     FrameEffort effort{};
 };
 
-/// One for all cloths: the stretch errors are the worst cloth's, as a tolerance bounds each; strains, energies and the
-/// centre of mass are those of all together.
+/// Returns the statistics of all cloths together: the stretch errors are the worst cloth's, since a tolerance bounds
+/// each cloth's; strains, energies and the centre of mass are those of all cloths together.
 ClothStatistics joined(std::span<const ClothStatistics> cloths);
 
-/// Mean and most substeps of the frames after the first: "substeps_used", "substeps_most".
+/// Adds the mean and the largest number of substeps after the first frame: "substeps_used", "substeps_most".
 void put_substeps(std::span<const Sample> samples, Metrics& metrics);
 
 struct Recording {
@@ -35,7 +35,7 @@ struct Recording {
     std::vector<Sample> samples;  ///< frame 0 first, the last frame last
 };
 
-/// One size of a problem swept by one family of settings, the coarsest first.
+/// One size of a problem, with the settings of one family, the coarsest first.
 struct Sweep {
     std::uint32_t size = 0;
     std::vector<Setting> settings;
@@ -47,7 +47,7 @@ struct Problem {
     std::string title;   ///< for plots and tables
     std::string metric;  ///< the error that sweeps, plots and the table go by
     std::string unit;    ///< of it: "m", "1"
-    /// Below this the metric means nothing more: rounding, or the reference's own error.
+    /// Smaller values of the metric mean nothing: they are rounding, or the reference's own error.
     double floor = 0;
     bool timed = false;              ///< repetitions for the time; a plot of error against time
     double strain_damping = 0;       ///< explicit; it is for tangled cloth, and the references have none
@@ -83,7 +83,7 @@ struct OrderClaim {
 
 /// Every problem with its sweeps: the full benchmark's, or the short one's.
 std::vector<Problem> all_problems(bool is_short);
-/// The orders of convergence that theory gives them.
+/// Returns the orders of convergence that theory predicts for these problems.
 std::vector<OrderClaim> order_claims();
 
 // --- Sweeps: how coarse, how fine, in what steps
@@ -102,7 +102,7 @@ std::vector<Setting> sweep_settings(const Method& method, std::uint32_t links, b
 /// The sweeps of every method and `auto`, for `links` links over 1 m. Relaxation needs very many substeps for the
 /// position error that the others reach: those cases take longest and have a priority of their own.
 std::vector<Sweep> work_sweeps(std::uint32_t links, int priority, int finest_relax_priority);
-/// The same in a few settings.
+/// Returns the same for a few settings.
 std::vector<Sweep> short_sweeps(std::uint32_t links, int priority);
 
 // One function per group of rows; all_problems joins them.

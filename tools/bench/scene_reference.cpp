@@ -11,7 +11,7 @@ namespace drape::bench {
 
 namespace {
 
-/// x y z of every particle of a frame.
+/// Returns x y z of every particle of a frame.
 std::vector<float> positions_of(const FinishedFrame& frame) {
     std::vector<float> all;
     for (const std::span<const float> cloth : frame.positions)
@@ -20,14 +20,14 @@ std::vector<float> positions_of(const FinishedFrame& frame) {
     return all;
 }
 
-/// The RMS distance of two frames' particles, m.
+/// Returns the RMS distance between two frames' particles, m.
 double rms_between(const std::vector<float>& a, const std::vector<float>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
     return std::sqrt(3 * sum / std::max<double>(static_cast<double>(a.size()), 1));
 }
 
-/// The scene by a method with so many substeps of one iteration, without a tolerance.
+/// Returns the scene with a method, so many substeps of one iteration, and no tolerance.
 SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
     scene.solver.method = method;
     scene.solver.substeps = substeps;
@@ -38,11 +38,11 @@ SceneDescription fixed(SceneDescription scene, SolverMethod method, std::uint32_
 
 using Frames = std::vector<std::vector<float>>;  ///< per frame after the first: x y z of every particle
 
-/// Nothing when it is no longer finite.
+/// Returns the frames of a run; nothing when a value is no longer finite.
 std::optional<Frames> frames_of(const Device& device, SceneDescription scene, SolverMethod method,
                                 std::uint32_t substeps, const ReferenceProgress& progress) {
     scene = fixed(std::move(scene), method, substeps);
-    scene.solver.strain_damping = 0;  // no part of the cloth
+    scene.solver.strain_damping = 0;  // it is not a property of the cloth
     Simulation simulation(scene, {}, device);
     Frames frames;
     const std::uint32_t last = scene.time.frame_count - 1;
@@ -118,8 +118,8 @@ class Refinement {
     std::vector<double> estimate_, order_;
 };
 
-/// The fewest substeps with which the method follows all that the scene asks for, and at least `least`; nothing where
-/// that is more than `most` or no substeps would do.
+/// Returns the fewest substeps, at least `least`, with which the method follows everything that the scene asks for;
+/// nothing if these are more than `most`, or no number is enough.
 std::optional<std::uint32_t> full_substeps(SceneDescription scene, SolverMethod method, std::uint32_t least,
                                            std::uint32_t most) {
     scene = fixed(std::move(scene), method, least);
@@ -150,8 +150,8 @@ std::vector<Refinement> candidates(const Device& device, const SceneDescription&
     return all;
 }
 
-/// The best one's estimate, raised by what the others' finest runs are off beyond their own estimates: that cannot be
-/// theirs.
+/// Returns the best method's estimated error, raised by the distance of the other methods' finest runs beyond their own
+/// estimates, which their own errors cannot explain.
 std::vector<double> honest_estimate(const Refinement& best, const std::vector<Refinement>& all) {
     std::vector<double> estimate = best.estimate();
     for (const Refinement& other : all)

@@ -48,7 +48,7 @@ class SpeedRun {
     }
 
   private:
-    /// Whether it could be.
+    /// Measures a case. Returns whether it could be measured.
     bool measure(const SpeedCase& each) {
         switch (each.kind) {
             case SpeedKind::solve:

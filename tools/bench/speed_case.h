@@ -1,4 +1,4 @@
-// `drape bench speed` measures a table of cases, made of a few lists of numbers.
+// The table of cases that `drape bench speed` measures, made of a few lists of numbers.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct SpeedCase {
     std::string name{};  ///< "line/256": what --filter is matched with
     SpeedKind kind = SpeedKind::solve;
     std::string group{};         ///< cases that a line of a plot joins: "line", "line, cloths"
-    std::uint32_t variable = 0;  ///< what they differ in: particles along a side, cloths, colliders
+    std::uint32_t variable = 0;  ///< what the group's cases differ in: particles along a side, cloths, colliders
     SolverMethod method = SolverMethod::line;
     std::uint32_t size = 64;                               ///< particles along both sides of each cloth
     std::uint32_t cloths = 1, colliders = 0, samples = 4;  ///< cloths: of an ensemble, its members
@@ -31,10 +31,10 @@ struct SpeedCase {
     double particles() const { return double(size) * size * cloths; }
 };
 
-/// In order of importance. `is_short`: small cloths alone.
+/// Returns the cases in order of importance. `is_short`: those of small cloths alone.
 std::vector<SpeedCase> speed_cases(bool is_short);
 
-/// Those of --tune: "kernels/METHOD/N", "kernels/METHOD/32/COUNT cloths".
+/// Returns the cases of --tune: "kernels/METHOD/N", "kernels/METHOD/32/COUNT cloths".
 std::vector<SpeedCase> kernel_cases(bool is_short);
 
 /// Sheets of 1 m held by an edge, swinging from level; spheres above them, which they do not touch.

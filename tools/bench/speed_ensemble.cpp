@@ -32,7 +32,7 @@ SpeedResult measure_ensemble(SpeedDevices& devices, const SpeedCase& speed_case,
     std::vector<SceneDescription> members(speed_case.cloths, scene_of(one));
     for (std::size_t k = 0; k < members.size(); ++k)
         members[k].cloths[0].areal_density *= 1 + 0.5 * static_cast<double>(k) / static_cast<double>(members.size());
-    // One alone is run without worker threads on a CPU; an ensemble is work for all cores.
+    // A scene alone runs without worker threads on a CPU; an ensemble has work for all cores.
     const Device& threaded = devices.of(scene_of({.size = 256}), false);
     const Device& single = devices.of(members[0], false);
     Simulation alone(members[0], {.keep_promises = false, .timings = Timings::none}, single);

@@ -28,7 +28,7 @@ class SpeedDevices {
 
   private:
     const BenchRequest& request_;
-    /// By whether the calling thread does the work, and whether it draws.
+    /// By two facts: the calling thread does the work; the device draws.
     std::map<std::pair<bool, bool>, std::optional<Device>> devices_;
 };
 
@@ -37,8 +37,8 @@ SpeedResult measure_solver(SpeedDevices& devices, const SpeedCase& speed_case, c
                            const BenchRequest& request);
 SpeedResult measure_picture(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
                             const BenchRequest& request);
-/// Times every set of kernels that the device can run, by its name, and "frame", what it takes unasked, which the note
-/// names.
+/// Times every set of kernels that the device can run, by its name, and "frame", the set that is chosen by default,
+/// which the note names.
 SpeedResult measure_kernels(SpeedDevices& devices, const SpeedCase& speed_case, const SpeedEffort& effort,
                             const BenchRequest& request);
 /// Times "frame", a step of an ensemble of so many members, and "alone", a frame of one by itself, on one thread.
@@ -51,7 +51,7 @@ SpeedResult measure_skip(SpeedDevices& devices, const SpeedCase& speed_case, con
 /// and then full (warm).
 SpeedResult measure_start(const SpeedCase& speed_case, const SpeedEffort& effort, const BenchRequest& request);
 
-/// Seconds that a case takes, about, at a particle's 0.5 us per substep on all sides together.
+/// Returns about how many seconds a case takes, at 0.5 us per particle and substep for all sides together.
 double speed_work(const SpeedCase& speed_case, const SpeedEffort& effort);
 
 }  // namespace drape::bench

@@ -8,14 +8,14 @@
 
 namespace drape::compare {
 
-/// Limits of the differences. Arrays are judged by those given of the first two, and must be equal where neither is;
-/// pictures by the last two in the same way.
+/// Limits of the differences. Arrays are judged by those of the first two that are given, and must be equal if neither
+/// is; pictures are judged by the last two in the same way.
 struct Limits {
     std::optional<double> largest, rms;   ///< on the differences of an array's values
     std::optional<double> psnr, channel;  ///< dB, at least; largest difference of a channel, of 255
 };
 
-/// An array, picture or file that both have, or only one.
+/// An array, picture or file that both folders have, or only one of them.
 struct Row {
     std::string name;
     std::string text;   ///< how it differs
@@ -25,7 +25,7 @@ struct Row {
     std::optional<double> largest, rms, psnr;
 };
 
-/// Whether the file is one that `compare_files` reads: .npy, .npz or .png.
+/// Returns whether `compare_files` can read the file: .npy, .npz or .png.
 bool is_result_file(const std::filesystem::path& path);
 
 /// Throws OutputError naming the file that cannot be read.

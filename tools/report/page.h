@@ -1,4 +1,4 @@
-// All pages have this in common.
+// What all pages of a report have in common.
 #pragma once
 
 #include <string>

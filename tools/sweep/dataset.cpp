@@ -41,7 +41,8 @@ std::optional<Shape> shape_of(const SweepSpec& spec, std::uint32_t index) {
     return shape;
 }
 
-/// Whether the value may decide a shape. Of a scene with any other all runs have that of one.
+/// Returns whether the value at this place of a scene may decide the shapes of a trajectory. Runs that differ only in
+/// other values have equal shapes.
 bool shapes(const std::string& pointer) {
     static const std::regex pointers(
         "/(time|time/(fps|frames)|cloths|cloths/[^/]*|cloths/[^/]*/(grid|holes)(/.*)?|"

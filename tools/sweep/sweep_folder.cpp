@@ -26,7 +26,7 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-/// Nothing when there is no such file.
+/// Returns the content of a file; nothing when it does not exist.
 std::optional<std::string> content(const fs::path& path) {
     return is_there(path) ? std::optional(read_file(path)) : std::nullopt;
 }
@@ -43,8 +43,8 @@ void make_folder(const fs::path& path) {
     if (error) throw OutputError(fmt::format("cannot make '{}': {}", path.string(), error.message()));
 }
 
-/// Beside what killed processes left unfinished. That is removed, unless it is so young that a process of another
-/// machine may be writing it.
+/// Returns whether the folder contains anything except unfinished files of killed processes. These are removed, unless
+/// they are so new that a process on another machine may be writing them.
 bool holds_anything(const fs::path& folder) {
     bool found = false;
     std::error_code error;
