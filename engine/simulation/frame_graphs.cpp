@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "solver/state_transfer.h"
+
 namespace drape {
 
 FrameGraphs::FrameGraphs(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
@@ -83,7 +85,7 @@ const PlannedGraph& FrameGraphs::planned(const FrameContents& contents) {
 }
 
 void FrameGraphs::fit_raster() {
-    if (options_.draw) raster_.fit(device_, joint_->scene, options_, solver_.topologies());
+    if (options_.draw) raster_.fit(device_, joint_->scene, options_, solver_.layout().topologies);
 }
 
 PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
@@ -160,14 +162,14 @@ void FrameGraphs::allocate() {
 }
 
 void FrameGraphs::upload() {
-    solver_.upload(*pool_);
+    upload_start(solver_.layout(), *pool_);
     if (raster_) raster_->upload(*pool_);
 }
 
 void FrameGraphs::rebuild(const SimulationState& state) {
     plan_known();
     allocate();
-    solver_.upload_state(*pool_, state);
+    upload_state(solver_.layout(), *pool_, state);
 }
 
 void FrameGraphs::draw_anew() {

@@ -84,8 +84,8 @@ class FrameGraphs {
     /// Returns the device's times of the slot's last submit of a frame.
     std::vector<StageTime> timings(const FrameContents& contents, std::uint32_t slot) const;
 
-    ClothSolver& solver() { return solver_; }
-    const ClothSolver& solver() const { return solver_; }
+    ClothLayout& layout() { return solver_.layout(); }
+    const ClothLayout& layout() const { return solver_.layout(); }
     ClothRaster& raster() { return raster_; }
     const graph::ResourcePool& pool() const { return *pool_; }
 
