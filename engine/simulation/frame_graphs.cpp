@@ -6,6 +6,25 @@
 
 namespace drape {
 
+namespace {
+
+void note_skipped(graph::Graph& graph, const SceneDescription& scene, const FrameOptions& options,
+                  const FrameContents& contents) {
+    if (!contents.cuts)
+        graph.skip("cut search",
+                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
+    if (!contents.tears)
+        graph.skip("tear search",
+                   scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
+    if (!options.draw && !options.draws_beside)
+        graph.skip(options.normals ? "raster and colour readback" : "normals, raster and colour readback",
+                   "no picture is wanted");
+    if (!options.positions) graph.skip("position readback", "no position export is wanted");
+    if (!contents.counts && !options.statistics) graph.skip("statistics", "nobody asked for them");
+}
+
+}  // namespace
+
 FrameGraphs::FrameGraphs(const vulkan::Device& device, const std::vector<const SimulationModel*>& members,
                          const FrameOptions& options)
     : device_(device),
@@ -71,10 +90,12 @@ void FrameGraphs::plan_known() {
     steps_.clear();
     fit_raster();
     for (const FrameContents& contents : known_contents()) planned(contents);
-    for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const StateStep step : state_steps(*joint_, static_cast<StateSet>(set))) {
-            const SetStep key{static_cast<StateSet>(set), step};
-            steps_[key] = plan(key);
+    for (std::size_t k = 0; k < state_set_count; ++k)
+        for (const auto set = static_cast<StateSet>(k); const StateStep step : state_steps(*joint_, set)) {
+            PlannedGraph& around = steps_[{set, step}];
+            solver_.declare(around.graph, {}, *joint_, set);
+            solver_.add_attempt(around.graph, step);
+            around.plan = graph::make_plan(around.graph);
         }
 }
 
@@ -101,7 +122,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
         solver_.add_forms(graph);
     if (contents.cuts) solver_.add_cuts(graph);
     if (contents.tears) solver_.add_tears(graph);
-    note_skipped(graph, contents);
+    note_skipped(graph, joint_->scene, options_, contents);
     if (contents.hands_out) add_hand_out(graph);
     if (contents.counts) solver_.add_statistics(graph);
     planned.plan = graph::make_plan(graph);
@@ -117,29 +138,6 @@ void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (!options_.velocities) return;
     solver_.add_readback(graph, Field::displacement, "displacement");
     solver_.add_readback(graph, Field::end_excess, "excess displacement");
-}
-
-void FrameGraphs::note_skipped(graph::Graph& graph, const FrameContents& contents) const {
-    const SceneDescription& scene = joint_->scene;
-    if (!contents.cuts)
-        graph.skip("cut search",
-                   scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
-    if (!contents.tears)
-        graph.skip("tear search",
-                   scene.tears() ? "nothing tears in this kind of frame" : "no cloth of the scene tears");
-    if (!options_.draw && !options_.draws_beside)
-        graph.skip(options_.normals ? "raster and colour readback" : "normals, raster and colour readback",
-                   "no picture is wanted");
-    if (!options_.positions) graph.skip("position readback", "no position export is wanted");
-    if (!contents.counts && !options_.statistics) graph.skip("statistics", "nobody asked for them");
-}
-
-PlannedGraph FrameGraphs::plan(const SetStep& step) {
-    PlannedGraph planned;
-    solver_.declare(planned.graph, {}, *joint_, step.first);
-    solver_.add_attempt(planned.graph, step.second);
-    planned.plan = graph::make_plan(planned.graph);
-    return planned;
 }
 
 std::vector<std::pair<const graph::Graph*, const graph::Plan*>> FrameGraphs::plans() const {
@@ -158,10 +156,6 @@ void FrameGraphs::allocate() {
     if (!planned_all_) plan_known();
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
-    upload();
-}
-
-void FrameGraphs::upload() {
     upload_start(solver_.layout(), *pool_);
     if (raster_) raster_->upload(*pool_);
 }
@@ -179,23 +173,20 @@ void FrameGraphs::draw_anew() {
     for (const FrameContents& contents : known_contents()) planned(contents);
 }
 
-void FrameGraphs::record(PlannedGraph& planned) const {
+VkCommandBuffer FrameGraphs::commands(PlannedGraph& planned, std::uint32_t slot) const {
     if (!planned.recorded)
         planned.recorded = std::make_unique<graph::RecordedPlan>(planned.graph, planned.plan, *pool_,
                                                                  options_.timestamps, options_.barrier_filter);
+    return planned.recorded->commands(slot);
 }
 
 VkCommandBuffer FrameGraphs::commands(const FrameContents& contents, std::uint32_t slot) {
     planned(contents);
-    PlannedGraph& frame = frames_.at(contents);
-    record(frame);
-    return frame.recorded->commands(slot);
+    return commands(frames_.at(contents), slot);
 }
 
 VkCommandBuffer FrameGraphs::commands(StateStep step, StateSet set, std::uint32_t slot) {
-    PlannedGraph& planned = steps_.at({set, step});
-    record(planned);
-    return planned.recorded->commands(slot);
+    return commands(steps_.at({set, step}), slot);
 }
 
 std::vector<StageTime> FrameGraphs::timings(const FrameContents& contents, std::uint32_t slot) const {

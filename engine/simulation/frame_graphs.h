@@ -103,10 +103,7 @@ class FrameGraphs {
     void fit_raster();
     PlannedGraph plan(const FrameContents& contents);
     void add_hand_out(graph::Graph& graph);
-    void note_skipped(graph::Graph& graph, const FrameContents& contents) const;
-    PlannedGraph plan(const SetStep& step);
-    void record(PlannedGraph& planned) const;
-    void upload();
+    VkCommandBuffer commands(PlannedGraph& planned, std::uint32_t slot) const;
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans() const;
 
     const vulkan::Device& device_;
