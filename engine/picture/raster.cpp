@@ -131,7 +131,7 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       samples_(samples),
       tiles_(width, height),
       camera_(picture_camera(scene, width, height)),
-      resolves_(samples > 1 && !device.samples_in_shaders()),
+      resolves_(samples > 1 && !device.capabilities().samples_in_shaders),
       colliders_(scene.colliders),
       fixtures_(fixtures(scene)),
       mesh_corners_(mesh_corners(scene.colliders, 0)),

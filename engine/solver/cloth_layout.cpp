@@ -24,7 +24,8 @@ std::string together_name(const SimulationModel& model, std::span<const std::siz
 
 ClothLayout::ClothLayout(const vulkan::Device& device, const SimulationModel& of, const Kernels& wanted)
     : model(of), kernels(possible_kernels(device, of, wanted)) {
-    lists.most_bytes = std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.max_buffer_size());
+    lists.most_bytes =
+        std::min<std::uint64_t>(device.limits().maxStorageBufferRange, device.capabilities().max_buffer_size);
     if (model.self_contact) lists.resize(model.self_contact->capacity);
     for (const ClothModel& cloth : model.cloths) {
         topologies.emplace_back(cloth);
