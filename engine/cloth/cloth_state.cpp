@@ -115,7 +115,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::whole_spring_share, "whole spring shares", image, vector, constant, stiffens, particles,
          [](Context c) { return bytes_of_list(c.topology.whole_spring_shares()); }},
         {Field::spring_share, "spring shares", image, vector, constant, masked, spring_list,
-         [](Context c) { return bytes_of_list(c.topology.spring_texels()); }, stiffens},
+         [](Context c) { return bytes_of_list(spring_texels(c.topology)); }, stiffens},
         {Field::rest_shape, "rest shape", image, vector, constant, rests_bent, particles,
          [](Context c) { return bytes_of_list(c.cloth.position); }},
         {Field::bend_targets, "bend targets", image, vector, frame, rests_bent, target_list},

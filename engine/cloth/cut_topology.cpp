@@ -21,23 +21,56 @@ class Corners {
     std::array<std::size_t, 4> parent_{0, 1, 2, 3};
 };
 
+/// Returns the fraction from one corner to the other where the edge between them is cut, -1: whole.
+float edge_cut(const CutTopology& topology, std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t columns = topology.grid().columns();
+    // Mesh edges are row, column and down-left springs, owned by the particle of lower index.
+    const std::uint32_t owner = std::min(from, to), step = std::max(from, to) - owner;
+    const bool in_row = step == 1 && owner % columns + 1 < columns;  // in two columns down-left is one on, too
+    const std::size_t direction = in_row ? 0 : step == columns ? 1 : 3;
+    const float fraction = topology.cut_fraction(owner, direction);
+    return fraction < 0 ? -1 : owner == from ? fraction : 1 - fraction;
+}
+
+/// Returns how many pieces there are; particles without a cell are none.
+std::uint32_t piece_count(const CutTopology& topology) {
+    const std::vector<std::size_t> piece = pieces_of(topology);
+    std::uint32_t count = 0;
+    for (std::size_t k = 0; k < piece.size(); ++k) count += piece[k] == k && topology.cloth().free_weight[k] > 0;
+    return count;
+}
+
+/// Returns, by particle, whether it stands for a piece (pieces_of) that a cut spring ends at.
+std::vector<bool> beside_cuts(const CutTopology& topology, const std::vector<std::size_t>& piece) {
+    std::vector<bool> beside(piece.size());
+    for (std::size_t particle = 0; particle < piece.size(); ++particle)
+        for (std::size_t k = 0; k < spring_directions.size(); ++k) {
+            if (topology.cut_fraction(particle, k) < 0) continue;
+            const glsl::ivec2 offset = spring_directions[k].offset;
+            beside[piece[particle]] = true;
+            beside[piece[particle + static_cast<std::size_t>(offset.y * topology.grid().size().x + offset.x)]] = true;
+        }
+    return beside;
+}
+
 }  // namespace
 
+struct CutTopology::Triangle {
+    std::array<std::uint32_t, 3> corner;
+    std::array<float, 3> cut;  ///< fraction from corner k where the edge from corner k to k+1 is cut, -1 = whole
+    int cut_count() const { return (cut[0] >= 0) + (cut[1] >= 0) + (cut[2] >= 0); }
+};
+
 CutTopology::CutTopology(const ClothGeometry& cloth)
-    : cloth_(&cloth),
-      grid_(cloth.grid),
-      columns_(grid_.columns()),
-      rows_(grid_.rows()),
-      tethers_(cloth.tethers),
-      cuts_(grid_.particle_count(), {-1, -1, -1, -1}) {
+    : cloth_(&cloth), grid_(cloth.grid), tethers_(cloth.tethers), cuts_(grid_.particle_count(), {-1, -1, -1, -1}) {
     if (cloth.starts_masked) make_masked();
     rebuild_drawing();
 }
 
 void CutTopology::make_masked() {
     if (masked()) return;
-    for (std::uint32_t row = 0; row < rows_; ++row)
-        for (std::uint32_t column = 0; column < columns_; ++column)
+    for (std::uint32_t row = 0; row < grid_.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid_.columns(); ++column)
             spring_shares_.push_back(cloth_->grid.spring_shares(column, row));
     set_stiffness(cloth_->start_stiffness);
 }
@@ -49,35 +82,16 @@ void CutTopology::set_stiffness(float factor) {
         acting_shares_.push_back({share.x * factor, share.y * factor, share.z * factor, share.w * factor});
 }
 
-std::vector<glsl::vec4> CutTopology::spring_texels() const {
-    const std::vector<glsl::vec4>&scales = cloth_->rest_scales, &shares = spring_shares();
-    if (scales.empty()) return shares;
-    std::vector<glsl::vec4> texels;
-    for (std::size_t first = 0; first < shares.size(); first += columns_)
-        for (const std::vector<glsl::vec4>* values : {&shares, &scales})
-            for (std::size_t i = first; i < first + columns_; ++i) texels.push_back((*values)[i]);
-    return texels;
-}
-
 float CutTopology::cut_fraction(std::size_t particle, std::size_t direction) const {
     return component(cuts_[particle], direction);
 }
 
-float CutTopology::edge_cut(std::uint32_t from, std::uint32_t to) const {
-    // Mesh edges are row, column and down-left springs, owned by the particle of lower index.
-    const std::uint32_t owner = std::min(from, to), step = std::max(from, to) - owner;
-    const bool in_row = step == 1 && owner % columns_ + 1 < columns_;  // in two columns down-left is one on, too
-    const std::size_t direction = in_row ? 0 : step == columns_ ? 1 : 3;
-    const float fraction = component(cuts_[owner], direction);
-    return fraction < 0 ? -1 : owner == from ? fraction : 1 - fraction;
-}
-
 CutTopology::Triangle CutTopology::triangle(std::size_t cell, std::uint32_t which) const {
-    const auto row = static_cast<std::uint32_t>(cell / (columns_ - 1));
-    const auto column = static_cast<std::uint32_t>(cell % (columns_ - 1));
-    const std::uint32_t a = row * columns_ + column, b = a + 1, c = a + columns_, d = c + 1;
+    const auto row = static_cast<std::uint32_t>(cell / (grid_.columns() - 1));
+    const auto column = static_cast<std::uint32_t>(cell % (grid_.columns() - 1));
+    const std::uint32_t a = row * grid_.columns() + column, b = a + 1, c = a + grid_.columns(), d = c + 1;
     Triangle result{which == upper_triangle ? std::array{a, b, c} : std::array{b, d, c}, {}};
-    for (std::size_t k = 0; k < 3; ++k) result.cut[k] = edge_cut(result.corner[k], result.corner[(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) result.cut[k] = edge_cut(*this, result.corner[k], result.corner[(k + 1) % 3]);
     return result;
 }
 
@@ -117,7 +131,7 @@ CutCounts CutTopology::take_crossings(const CutFindings& findings) {
     if (counts.springs == 0) return counts;
     // The down-right diagonal is no edge of the mesh: it must not join what the mesh has let go.
     for (std::size_t cell = 0; cell < cloth_->grid.cells().size(); ++cell) {
-        const std::size_t particle = cell / (columns_ - 1) * columns_ + cell % (columns_ - 1);
+        const std::size_t particle = cell / (grid_.columns() - 1) * grid_.columns() + cell % (grid_.columns() - 1);
         if (cloth_->grid.cells()[cell] != 0 && component(spring_shares_[particle], 2) != 0 && !diagonal_holds(cell))
             counts.springs += cut_spring(particle, 2, 0.5f);
     }
@@ -142,7 +156,7 @@ CutCounts CutTopology::apply(const CutFindings& findings) {
     std::ranges::fill(tethers_, glsl::ParticleTethers{-1, -1, 0, 0});
     counts.triangles = split_triangles();
     rebuild_drawing();
-    counts.pieces = piece_count();
+    counts.pieces = piece_count(*this);
     counts.crumbs = crumb_count_;
     return counts;
 }
@@ -205,7 +219,7 @@ std::array<double, 2> CutTopology::material(std::uint32_t vertex) const {
         const glsl::vec4& at = vertices_[vertex - grid_.particle_count()].material;
         return {static_cast<double>(at.x), static_cast<double>(at.y)};
     }
-    const auto column = vertex % columns_, row = vertex / columns_;
+    const auto column = vertex % grid_.columns(), row = vertex / grid_.columns();
     return {column * cloth_->spacing[0], row * cloth_->spacing[1]};
 }
 
@@ -227,17 +241,18 @@ std::uint32_t CutTopology::add_vertex(std::uint32_t anchor, std::array<double, 2
     double rest_u = at[0] - base[0], rest_v = at[1] - base[1];
     glsl::CutVertex vertex{
         {anchor, anchor, anchor, 0}, {}, {}, {static_cast<float>(at[0]), static_cast<float>(at[1]), 0, 0}};
-    const std::uint32_t column = anchor % columns_, row = anchor / columns_;
-    const bool right = column + 1 < columns_ && row_share(anchor) != 0, left = column > 0 && row_share(anchor - 1) != 0;
+    const std::uint32_t column = anchor % grid_.columns(), row = anchor / grid_.columns();
+    const bool right = column + 1 < grid_.columns() && row_share(anchor) != 0;
+    const bool left = column > 0 && row_share(anchor - 1) != 0;
     if (right || left) {
         vertex.particles.y = right ? anchor + 1 : anchor - 1;
         vertex.weights.x = static_cast<float>(rest_u / (right ? cloth_->spacing[0] : -cloth_->spacing[0]));
         rest_u = 0;
     }
-    const bool below = row + 1 < rows_ && column_share(anchor) != 0;
-    const bool above = row > 0 && column_share(anchor - columns_) != 0;
+    const bool below = row + 1 < grid_.rows() && column_share(anchor) != 0;
+    const bool above = row > 0 && column_share(anchor - grid_.columns()) != 0;
     if (below || above) {
-        vertex.particles.z = below ? anchor + columns_ : anchor - columns_;
+        vertex.particles.z = below ? anchor + grid_.columns() : anchor - grid_.columns();
         vertex.weights.y = static_cast<float>(rest_v / (below ? cloth_->spacing[1] : -cloth_->spacing[1]));
         rest_v = 0;
     }
@@ -267,49 +282,8 @@ double CutTopology::rest_area() const {
     return sum;
 }
 
-std::vector<std::size_t> CutTopology::pieces() const {
-    std::vector<std::size_t> parent(grid_.particle_count());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::size_t k) {
-        while (parent[k] != k) k = parent[k] = parent[parent[k]];
-        return k;
-    };
-    for (std::uint32_t row = 0; row < rows_; ++row)
-        for (std::uint32_t column = 0; column < columns_; ++column) {
-            const std::size_t here = grid_.particle(column, row);
-            const glsl::vec4 share = masked() ? spring_shares_[here] : cloth_->grid.spring_shares(column, row);
-            for (std::size_t k = 0; k < spring_directions.size(); ++k) {
-                const glsl::ivec2 offset = spring_directions[k].offset;
-                const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
-                if (component(share, k) == 0 || x < 0 || x >= grid_.size().x || y >= grid_.size().y) continue;
-                parent[root(here)] = root(grid_.particle(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
-            }
-        }
-    for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
-    return parent;
-}
-
-std::uint32_t CutTopology::piece_count() const {
-    const std::vector<std::size_t> piece = pieces();
-    std::uint32_t count = 0;
-    for (std::size_t k = 0; k < piece.size(); ++k) count += piece[k] == k && cloth_->free_weight[k] > 0;
-    return count;
-}
-
-std::vector<bool> CutTopology::beside_cuts(const std::vector<std::size_t>& piece) const {
-    std::vector<bool> beside(piece.size());
-    for (std::size_t particle = 0; particle < piece.size(); ++particle)
-        for (std::size_t k = 0; k < spring_directions.size(); ++k) {
-            if (cut_fraction(particle, k) < 0) continue;
-            const glsl::ivec2 offset = spring_directions[k].offset;
-            beside[piece[particle]] = true;
-            beside[piece[particle + static_cast<std::size_t>(offset.y * grid_.size().x + offset.x)]] = true;
-        }
-    return beside;
-}
-
 void CutTopology::find_crumbs() {
-    const std::vector<std::size_t> piece = pieces();
+    const std::vector<std::size_t> piece = pieces_of(*this);
     const auto piece_of = [&](std::size_t drawn) {
         const std::uint32_t first = indices_[drawn];
         const std::size_t count = grid_.particle_count();
@@ -320,7 +294,7 @@ void CutTopology::find_crumbs() {
     const double largest = *std::ranges::max_element(areas);
     // The bound is a hair less: four triangles cut along their edges are no crumb, however their sum was rounded.
     const double least = (1 - 1e-9) * crumb_triangles * cloth_->spacing[0] * cloth_->spacing[1] / 2;
-    std::vector<bool> crumb = beside_cuts(piece);
+    std::vector<bool> crumb = beside_cuts(*this, piece);
     for (std::size_t k = 0; k < piece.size(); ++k) crumb[k] = crumb[k] && areas[k] < std::min(least, largest);
     crumb_count_ = static_cast<std::uint32_t>(std::ranges::count(crumb, true));
     if (crumb_count_ == 0 || cloth_->shows_crumbs) return;
@@ -336,6 +310,41 @@ void CutTopology::find_crumbs() {
         kept += 3;
     }
     indices_.resize(kept);
+}
+
+std::vector<glsl::vec4> spring_texels(const CutTopology& topology) {
+    const std::vector<glsl::vec4>&scales = topology.cloth().rest_scales, &shares = topology.spring_shares();
+    if (scales.empty()) return shares;
+    const std::uint32_t columns = topology.grid().columns();
+    std::vector<glsl::vec4> texels;
+    for (std::size_t first = 0; first < shares.size(); first += columns)
+        for (const std::vector<glsl::vec4>* values : {&shares, &scales})
+            for (std::size_t i = first; i < first + columns; ++i) texels.push_back((*values)[i]);
+    return texels;
+}
+
+std::vector<std::size_t> pieces_of(const CutTopology& topology) {
+    const Grid& grid = topology.grid();
+    std::vector<std::size_t> parent(grid.particle_count());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::size_t k) {
+        while (parent[k] != k) k = parent[k] = parent[parent[k]];
+        return k;
+    };
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const std::size_t here = grid.particle(column, row);
+            const glsl::vec4 share = topology.masked() ? topology.whole_spring_shares()[here]
+                                                       : topology.cloth().grid.spring_shares(column, row);
+            for (std::size_t k = 0; k < spring_directions.size(); ++k) {
+                const glsl::ivec2 offset = spring_directions[k].offset;
+                const int x = static_cast<int>(column) + offset.x, y = static_cast<int>(row) + offset.y;
+                if (component(share, k) == 0 || x < 0 || x >= grid.size().x || y >= grid.size().y) continue;
+                parent[root(here)] = root(grid.particle(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)));
+            }
+        }
+    for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = root(k);
+    return parent;
 }
 
 }  // namespace drape

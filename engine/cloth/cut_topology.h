@@ -52,9 +52,6 @@ class CutTopology {
     const std::vector<glsl::vec4>& whole_spring_shares() const { return spring_shares_; }
     /// Takes the factor of a stiffness that changes.
     void set_stiffness(float factor);
-    /// Returns the rows of the image of spring shares: the shares of a row and, where the cloth has a shape of rest,
-    /// the scales of its springs' lengths behind them (shaders/include/rest_length.h).
-    std::vector<glsl::vec4> spring_texels() const;
     /// Returns the cells that are there now.
     const Grid& grid() const { return grid_; }
     const std::vector<glsl::ParticleTethers>& tethers() const { return tethers_; }
@@ -69,29 +66,19 @@ class CutTopology {
     /// Returns the area at rest, m^2, of whole triangles and parts, crumbs and all; cutting does not change it.
     double rest_area() const;
     std::uint32_t crumb_count() const { return crumb_count_; }
-    /// Returns for each particle the number of one particle of its piece, the same for all that springs hold together.
-    std::vector<std::size_t> pieces() const;
-    /// Returns how many there are; particles without a cell are none.
-    std::uint32_t piece_count() const;
     /// Returns the fraction along an owned spring where it was cut; -1 when it was not.
     float cut_fraction(std::size_t particle, std::size_t direction) const;
 
   private:
-    struct Triangle {
-        std::array<std::uint32_t, 3> corner;
-        std::array<float, 3> cut;  ///< fraction from corner k where the edge from corner k to k+1 is cut, -1 = whole
-        int cut_count() const { return (cut[0] >= 0) + (cut[1] >= 0) + (cut[2] >= 0); }
-    };
+    struct Triangle;
 
     Triangle triangle(std::size_t cell, std::uint32_t which) const;
-    float edge_cut(std::uint32_t from, std::uint32_t to) const;
     void make_masked();
     bool diagonal_holds(std::size_t cell) const;
     CutCounts take_crossings(const CutFindings& findings);
     std::uint32_t split_triangles();
     void rebuild_drawing();
     double rest_area_of(std::size_t drawn) const;
-    std::vector<bool> beside_cuts(const std::vector<std::size_t>& piece) const;
     /// Counts crumbs, and leaves them out of what is drawn where they are not to be seen.
     void find_crumbs();
     void add_parts(const Triangle& triangle);
@@ -102,7 +89,6 @@ class CutTopology {
 
     const ClothGeometry* cloth_;
     Grid grid_;
-    std::uint32_t columns_, rows_;
     std::vector<glsl::vec4> spring_shares_;
     std::vector<glsl::vec4> acting_shares_;  ///< of a cloth that stiffens: with the factor of the frame
     std::vector<glsl::ParticleTethers> tethers_;
@@ -114,6 +100,12 @@ class CutTopology {
     double left_out_area_ = 0;             ///< m^2 of crumbs, at rest
     std::size_t grid_triangle_count_ = 0;  ///< triangles in `indices_` that have a place of their own
 };
+
+/// Returns the rows of the image of spring shares: the shares of a row and, where the cloth has a shape of rest, the
+/// scales of its springs' lengths behind them (shaders/include/rest_length.h).
+std::vector<glsl::vec4> spring_texels(const CutTopology& topology);
+/// Returns for each particle the number of one particle of its piece, the same for all that springs hold together.
+std::vector<std::size_t> pieces_of(const CutTopology& topology);
 
 /// Returns cutters' triangles for the frame that ends at `frame_end` and began at `frame_start` (s), room for
 /// cutter_triangle_count per cutter, those that cut first; the others have a.w = 0. At frame 0 both times are 0.

@@ -37,7 +37,7 @@ class Tearing {
         : topology_(topology),
           grid_(topology.cloth().grid),
           loads_(loads),
-          pieces_(topology.pieces()),
+          pieces_(pieces_of(topology)),
           torn_(grid_.particle_count(), {-1, -1, -1, -1}),
           touched_(grid_.cells().size()),
           done_(grid_.particle_count()),

@@ -154,7 +154,7 @@ RecordedPlan::~RecordedPlan() {
 }
 
 void RecordedPlan::set_brackets(const Graph& graph, const Plan& plan, TimestampMode timestamps) {
-    if (timestamps == TimestampMode::none || device_.timestamp_valid_bits() == 0) return;
+    if (timestamps == TimestampMode::none || device_.capabilities().timestamp_valid_bits == 0) return;
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
         const Pass& pass = graph.passes()[plan.passes[position].pass];
         const std::string& name = timestamps == TimestampMode::stages ? pass.stage : pass.label;
@@ -196,8 +196,8 @@ std::vector<Timing> RecordedPlan::timings(std::uint32_t slot) const {
     if (brackets_.empty()) return timings;
     std::vector<std::uint64_t> ticks(brackets_.size() + 1);
     std::memcpy(ticks.data(), ticks_[slot].mapped().data(), std::span(ticks).size_bytes());
-    if (ticks.back() == 0) return timings;  // the plan was never submitted
-    const std::uint32_t bits = device_.timestamp_valid_bits();
+    if (ticks.back() == 0) return timings;  // it was never submitted
+    const std::uint32_t bits = device_.capabilities().timestamp_valid_bits;
     const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     const double milliseconds_per_tick = static_cast<double>(device_.limits().timestampPeriod) * 1e-6;
     std::map<std::string, std::size_t> places;

@@ -46,24 +46,24 @@ void PngSequence::submit(std::uint64_t frame, std::uint32_t width, std::uint32_t
             fmt::format("frame {}: {} bytes are not {}x{} RGBA pixels", frame, rgba.size(), width, height));
     }
     std::unique_lock lock(mutex_);
-    if (finished_) throw std::logic_error(fmt::format("frame {} submitted after finish()", frame));
-    frame_done_.wait(lock, [this] { return pending_count_ < pending_limit_ || error_; });
-    if (error_) std::rethrow_exception(error_);
-    queue_.push_back({frame, width, height, std::move(rgba), std::move(values)});
-    ++pending_count_;
+    if (progress_.finished) throw std::logic_error(fmt::format("frame {} submitted after finish()", frame));
+    frame_done_.wait(lock, [this] { return progress_.pending_count < pending_limit_ || progress_.error; });
+    if (progress_.error) std::rethrow_exception(progress_.error);
+    progress_.queue.push_back({frame, width, height, std::move(rgba), std::move(values)});
+    ++progress_.pending_count;
     frame_waits_.notify_one();
 }
 
 void PngSequence::flush() {
     std::unique_lock lock(mutex_);
-    frame_done_.wait(lock, [this] { return pending_count_ == 0; });
-    if (error_) std::rethrow_exception(error_);
+    frame_done_.wait(lock, [this] { return progress_.pending_count == 0; });
+    if (progress_.error) std::rethrow_exception(progress_.error);
 }
 
 std::vector<FileRecord> PngSequence::finish() {
     flush();
     const std::scoped_lock lock(mutex_);
-    finished_ = true;
+    progress_.finished = true;
     std::ranges::sort(records_, {}, &FileRecord::name);
     return records_;
 }
@@ -71,9 +71,9 @@ std::vector<FileRecord> PngSequence::finish() {
 void PngSequence::work(const std::stop_token& stop) {
     std::vector<std::uint8_t> png;
     std::unique_lock lock(mutex_);
-    while (frame_waits_.wait(lock, stop, [this] { return !queue_.empty(); }) && !stop.stop_requested()) {
-        Frame frame = std::move(queue_.front());
-        queue_.pop_front();
+    while (frame_waits_.wait(lock, stop, [this] { return !progress_.queue.empty(); }) && !stop.stop_requested()) {
+        Frame frame = std::move(progress_.queue.front());
+        progress_.queue.pop_front();
         lock.unlock();
         std::exception_ptr error;
         FileRecord record;
@@ -88,11 +88,11 @@ void PngSequence::work(const std::stop_token& stop) {
         } catch (...) {
             error = std::current_exception();
         }
-        --pending_count_;
-        if (error && !error_) error_ = error;
-        if (error_) {
-            pending_count_ -= queue_.size();
-            queue_.clear();
+        --progress_.pending_count;
+        if (error && !progress_.error) progress_.error = error;
+        if (progress_.error) {
+            progress_.pending_count -= progress_.queue.size();
+            progress_.queue.clear();
         }
         frame_done_.notify_all();
     }

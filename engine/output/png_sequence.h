@@ -53,6 +53,12 @@ class PngSequence {
         std::vector<std::uint8_t> rgba;
         FrameValues values;
     };
+    struct Progress {
+        std::deque<Frame> queue;
+        size_t pending_count = 0;  // queued or being written
+        bool finished = false;
+        std::exception_ptr error;
+    };
 
     void work(const std::stop_token& stop);
     FileRecord write(const Frame& frame, std::vector<std::uint8_t>& png);
@@ -66,10 +72,7 @@ class PngSequence {
     std::mutex mutex_;
     std::condition_variable_any frame_waits_;
     std::condition_variable_any frame_done_;
-    std::deque<Frame> queue_;
-    size_t pending_count_ = 0;  // queued or being written
-    bool finished_ = false;
-    std::exception_ptr error_;
+    Progress progress_;
     std::vector<std::vector<std::uint8_t>> free_buffers_;
     std::vector<FileRecord> records_;
 

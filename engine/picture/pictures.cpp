@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "solver/position_upload.h"
+#include "solver/state_transfer.h"
 
 namespace drape {
 
@@ -34,7 +35,7 @@ Pictures::Pictures(const vulkan::Device& device, const SimulationModel& model, c
 }
 
 void Pictures::build() {
-    raster_.fit(device_, model_.scene, options_, solver_.topologies());
+    raster_.fit(device_, model_.scene, options_, solver_.layout().topologies);
     graph_ = {};
     solver_.declare(graph_, {.drawing = true});
     solver_.add_positions(graph_);
@@ -48,7 +49,7 @@ void Pictures::allocate() {
     pool_.reset();
     const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
-    solver_.upload(*pool_);
+    upload_start(solver_.layout(), *pool_);
     raster_->upload(*pool_);
     record();
 }
@@ -68,14 +69,15 @@ void Pictures::follow(const std::vector<CutTopology>& topologies) {
     bool new_resources = false;
     std::vector<CutImages> before;
     for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) {
-        before.push_back(solver_.cut_images(cloth));
+        before.push_back(cut_images(solver_.layout(), cloth));
         new_resources = new_resources || draws_outgrown(before[cloth], topologies[cloth]) ||
-                        solver_.topologies()[cloth].masked() != topologies[cloth].masked();
+                        solver_.layout().topologies[cloth].masked() != topologies[cloth].masked();
     }
-    solver_.topologies() = topologies;
-    build();  // the recording contains how much is drawn
+    solver_.layout().topologies = topologies;
+    build();  // the recording says how much is drawn
     if (new_resources) return allocate();
-    for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth) solver_.upload_cut(*pool_, cloth, before[cloth]);
+    for (std::size_t cloth = 0; cloth < topologies.size(); ++cloth)
+        upload_cut(solver_.layout(), *pool_, cloth, before[cloth]);
     record();
 }
 

@@ -131,22 +131,20 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       samples_(samples),
       tiles_(width, height),
       camera_(picture_camera(scene, width, height)),
-      resolves_(samples > 1 && !device.samples_in_shaders()),
-      colliders_(scene.colliders),
-      fixtures_(fixtures(scene)),
-      mesh_corners_(mesh_corners(scene.colliders, 0)),
-      deforms_(std::ranges::any_of(scene.colliders, &Collider::deforms)),
+      resolves_(samples > 1 && !device.capabilities().samples_in_shaders),
+      bodies_{scene.colliders, fixtures(scene), mesh_corners(scene.colliders, 0),
+              std::ranges::any_of(scene.colliders, &Collider::deforms)},
       shadow_skip_reason_(shadow_skip_reason(scene, options)),
       view_(options.view.kind),
       scale_(strain_scale(options.view, scene)),
-      compute_(device) {
+      pipelines_{.compute = Pipelines(device)} {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const PictureGeometry picture{camera_, scene_extent(scene), width, height, options.shift};
-    plane_extent_ = plane_extent(picture.camera, picture.extent);
+    bodies_.plane_extent = plane_extent(picture.camera, picture.extent);
     const std::optional<std::size_t> floor = floor_of(scene.colliders, picture.camera);
     constants_ = frame_constants(scene, picture, floor ? &scene.colliders[*floor] : nullptr);
-    has_floor_ = floor.has_value();
-    if (floor) colliders_.erase(colliders_.begin() + static_cast<std::ptrdiff_t>(*floor));
+    bodies_.has_floor = floor.has_value();
+    if (floor) bodies_.colliders.erase(bodies_.colliders.begin() + static_cast<std::ptrdiff_t>(*floor));
     make_pipelines(device, scene, options);
     make_compute_pipelines(options.cut);
 }
@@ -164,13 +162,13 @@ void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const Raster
         of.constants.insert(of.constants.end(), more);
         return std::make_unique<vulkan::GraphicsPipeline>(device, name, of);
     };
-    cloth_.whole = make("raster cloth", state);
-    if (shadow) shadow_cloth_.whole = make("shadow cloth", shadow_state);
-    if (strain && options.masked) cloth_.masked = make("raster masked cloth", state, {{"masked", 1}});
+    pipelines_.cloth.whole = make("raster cloth", state);
+    if (shadow) pipelines_.shadow_cloth.whole = make("shadow cloth", shadow_state);
+    if (strain && options.masked) pipelines_.cloth.masked = make("raster masked cloth", state, {{"masked", 1}});
     if (!options.cut) return;
     if (strain) state.constants.push_back({"masked", 1});
-    cloth_.cut = make("raster cut cloth", state, {{"cut", 1}});
-    if (shadow) shadow_cloth_.cut = make("shadow cut cloth", shadow_state, {{"cut", 1}});
+    pipelines_.cloth.cut = make("raster cut cloth", state, {{"cut", 1}});
+    if (shadow) pipelines_.shadow_cloth.cut = make("shadow cut cloth", shadow_state, {{"cut", 1}});
 }
 
 void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescription& scene,
@@ -188,7 +186,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     clear_state.vertex = {"clear.vert"}, clear_state.fragment = {"clear.frag"};
     clear_state.constants = tiles_.constants();
     clear_state.depth_compare = VK_COMPARE_OP_ALWAYS;
-    clearing_ = std::make_unique<vulkan::GraphicsPipeline>(device, "raster clear", clear_state);
+    pipelines_.clearing = std::make_unique<vulkan::GraphicsPipeline>(device, "raster clear", clear_state);
     state.constants = lit;
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -209,37 +207,38 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
         // so there the outer side turns the other way.
         state.cull = range.casts_shadow && range.closed ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
         shadow_state.cull = range.closed ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
-        draws_.push_back({range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
+        pipelines_.draws.push_back(
+            {range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
         if (!shadow || !range.casts_shadow) continue;
-        shadow_draws_.push_back(
+        pipelines_.shadow_draws.push_back(
             {range, std::make_unique<vulkan::GraphicsPipeline>(device, "shadow collider", shadow_state)});
     }
 }
 
 void RasterPass::make_compute_pipelines(bool cut) {
-    encoding_ = &compute_.get("encode.comp", [this](std::string_view name) {
-        if (name == "has_floor") return std::uint32_t{has_floor_};
-        if (name == "shadowed") return std::uint32_t{casts_shadow() && has_floor_};
+    pipelines_.encoding = &pipelines_.compute.get("encode.comp", [this](std::string_view name) {
+        if (name == "has_floor") return std::uint32_t{bodies_.has_floor};
+        if (name == "shadowed") return std::uint32_t{casts_shadow() && bodies_.has_floor};
         if (name == "sampled") return std::uint32_t{is_sampled()};
-        return name == "strip_length" ? compute_.strip_length() : tiles_.constant(name);
+        return name == "strip_length" ? pipelines_.compute.strip_length() : tiles_.constant(name);
     });
     const auto tiles_of = [this](bool of_cut) {
-        return &compute_.get("cloth_tiles.comp", [this, of_cut](std::string_view name) {
+        return &pipelines_.compute.get("cloth_tiles.comp", [this, of_cut](std::string_view name) {
             return name == "cut" ? std::uint32_t{of_cut} : tiles_.constant(name);
         });
     };
-    cloth_tiles_ = tiles_of(false);
-    if (cut) cut_cloth_tiles_ = tiles_of(true);
+    pipelines_.cloth_tiles = tiles_of(false);
+    if (cut) pipelines_.cut_cloth_tiles = tiles_of(true);
     if (!casts_shadow()) return;
     constexpr auto side = static_cast<std::uint32_t>(glsl::shadow_map_size);
-    const std::uint32_t texels_each = std::max(4u, compute_.strip_rows());
-    shadow_rows_ = &compute_.get("shadow_rows.comp", [=](std::string_view) { return texels_each; });
-    shadow_rows_invocations_ = side * side / texels_each;
+    const std::uint32_t texels_each = std::max(4u, pipelines_.compute.strip_rows());
+    pipelines_.shadow_rows = &pipelines_.compute.get("shadow_rows.comp", [=](std::string_view) { return texels_each; });
+    pipelines_.shadow_rows_invocations = side * side / texels_each;
 }
 
 std::vector<Collider> RasterPass::drawn_bodies(double time) const {
-    std::vector<Collider> bodies = colliders_;
-    for (const Fixture& fixture : fixtures_) bodies.push_back(posed(fixture, time));
+    std::vector<Collider> bodies = bodies_.colliders;
+    for (const Fixture& fixture : bodies_.fixtures) bodies.push_back(posed(fixture, time));
     return bodies;
 }
 
@@ -261,9 +260,10 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
     if (const std::size_t count = drawn_bodies(0).size(); count > 0)
         targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
-    if (!mesh_corners_.empty())
-        targets.meshes = graph.buffer<glsl::MeshCorner>(
-            meshes_name, mesh_corners_.size(), deforms_ ? graph::Lifetime::host_input : graph::Lifetime::constant);
+    if (!bodies_.mesh_corners.empty())
+        targets.meshes =
+            graph.buffer<glsl::MeshCorner>(meshes_name, bodies_.mesh_corners.size(),
+                                           bodies_.deforms ? graph::Lifetime::host_input : graph::Lifetime::constant);
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
@@ -304,7 +304,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
         {"shadow", "shadow", "shadow"},
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::vertex_read);
-            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            if (!pipelines_.draws.empty()) setup.read(targets.colliders, Access::vertex_read);
             if (targets.meshes.valid()) setup.read(targets.meshes, Access::vertex_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
@@ -319,14 +319,14 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             begin_rendering(context, *attachments);
             for (const RasterCloth& cloth : cloths) {
                 const bool cut = cloth.cut_vertices.valid();
-                const vulkan::GraphicsPipeline& pipeline = shadow_cloth_.of(cloth);
+                const vulkan::GraphicsPipeline& pipeline = pipelines_.shadow_cloth.of(cloth);
                 std::vector<graph::Binding> bound{{"frame", targets.frame}, {"position", cloth.position}};
                 if (cut) bound.push_back({"cut_vertices", cloth.cut_vertices});
                 context.bind(pipeline, bound);
                 context.push(pipeline, cloth_push(cloth));
                 draw_cloth(context, cloth.indices, cloth.index_count);
             }
-            draw_bodies(context, targets, shadow_draws_, {{"frame", targets.frame}});
+            draw_bodies(context, targets, pipelines_.shadow_draws, {{"frame", targets.frame}});
             vkCmdEndRendering(context.commands());
         });
     graph.add_pass(
@@ -335,7 +335,9 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
             setup.read(targets.shadow_map, Access::compute_read, "shadow_map");
             targets.shadow_rows = setup.write(targets.shadow_rows, Access::compute_write, "shadow_rows");
         },
-        [this](graph::PassContext& context) { context.dispatch(*shadow_rows_, {}, shadow_rows_invocations_, 1); });
+        [this](graph::PassContext& context) {
+            context.dispatch(*pipelines_.shadow_rows, {}, pipelines_.shadow_rows_invocations, 1);
+        });
 }
 
 void RasterPass::add_tiles(graph::Graph& graph, Targets& targets, const std::vector<RasterCloth>& cloths) const {
@@ -364,7 +366,7 @@ void RasterPass::add_tiles(graph::Graph& graph, Targets& targets, const std::vec
                 setup.read(targets.tiles, Access::compute_read);
                 targets.tiles = setup.write(targets.tiles, Access::compute_write, "tiles");
             },
-            [pipeline = cut ? cut_cloth_tiles_ : cloth_tiles_, triangles,
+            [pipeline = cut ? pipelines_.cut_cloth_tiles : pipelines_.cloth_tiles, triangles,
              push = glsl::ClothTilesPush{{cloth.columns, cloth.rows, triangles, 0}}](graph::PassContext& context) {
                 context.dispatch(*pipeline, push, triangles, 1);
             });
@@ -378,7 +380,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
         [&](graph::PassSetup& setup) {
             setup.read(targets.frame, Access::vertex_read);
             setup.read(targets.frame, Access::fragment_read);
-            if (!draws_.empty()) setup.read(targets.colliders, Access::vertex_read);
+            if (!pipelines_.draws.empty()) setup.read(targets.colliders, Access::vertex_read);
             if (targets.meshes.valid()) setup.read(targets.meshes, Access::vertex_read);
             if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
@@ -398,7 +400,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
         [this, attachments, cloths, targets](graph::PassContext& context) {
             begin_rendering(context, *attachments);
             const graph::Binding bound[] = {{"tiles", targets.tiles}};
-            context.bind(*clearing_, bound);
+            context.bind(*pipelines_.clearing, bound);
             vkCmdDraw(context.commands(), 6, tiles_.count(), 0, 0);
             draw_picture(context, targets, cloths);
             vkCmdEndRendering(context.commands());
@@ -411,7 +413,7 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
     if (casts_shadow()) shared.push_back({"shadow_rows", targets.shadow_rows});
     const bool lit = cloth_shaders(view_).lit;
     for (const RasterCloth& cloth : cloths) {
-        const vulkan::GraphicsPipeline& pipeline = cloth_.of(cloth);
+        const vulkan::GraphicsPipeline& pipeline = pipelines_.cloth.of(cloth);
         std::vector<graph::Binding> bound = lit ? shared : std::vector<graph::Binding>{{"frame", targets.frame}};
         bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
         if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
@@ -422,7 +424,7 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         if (!scale_) context.push(pipeline, cloth_push(cloth));
         draw_cloth(context, cloth.indices, cloth.index_count);
     }
-    draw_bodies(context, targets, draws_, shared);
+    draw_bodies(context, targets, pipelines_.draws, shared);
 }
 
 void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets, const std::vector<Draw>& draws,
@@ -437,8 +439,8 @@ void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets
 }
 
 void RasterPass::upload(const graph::ResourcePool& pool) const {
-    if (!mesh_corners_.empty() && !deforms_)
-        vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(mesh_corners_)));
+    if (!bodies_.mesh_corners.empty() && !bodies_.deforms)
+        vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(bodies_.mesh_corners)));
 }
 
 Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {
@@ -450,13 +452,14 @@ Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) con
             setup.read(targets.frame, Access::compute_read, "frame");
             setup.read(targets.light, Access::compute_read, is_sampled() ? "samples" : "light");
             setup.read(targets.tiles, Access::compute_read, "tiles");
-            if (casts_shadow() && has_floor_) setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
+            if (casts_shadow() && bodies_.has_floor)
+                setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
             picture = setup.write(picture, Access::compute_write, "pixels");
         },
         [this](graph::PassContext& context) {
             const glsl::GridPush push{{static_cast<int>(width_), static_cast<int>(height_)}};
-            const auto [across, down] = compute_.over_strips(push.grid);
-            context.dispatch(*encoding_, push, across, down);
+            const auto [across, down] = pipelines_.compute.over_strips(push.grid);
+            context.dispatch(*pipelines_.encoding, push, across, down);
         });
     return picture;
 }
@@ -466,13 +469,13 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
     const std::vector<Collider> bodies = drawn_bodies(time);
-    const std::vector<glsl::ColliderInstance> instances = collider_instances(bodies, plane_extent_, time);
+    const std::vector<glsl::ColliderInstance> instances = collider_instances(bodies, bodies_.plane_extent, time);
     const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, camera_);
     write(body_tiles_name, std::as_bytes(std::span(marks)));
     write(frame_name, std::as_bytes(std::span(&constants_, 1)));
     if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
-    if (deforms_) {
-        const std::vector<glsl::MeshCorner> corners = mesh_corners(colliders_, time);
+    if (bodies_.deforms) {
+        const std::vector<glsl::MeshCorner> corners = mesh_corners(bodies_.colliders, time);
         write(meshes_name, std::as_bytes(std::span(corners)));
     }
     if (!scale_) return;

@@ -120,32 +120,40 @@ class RasterPass {
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
 
-    std::uint32_t width_, height_, samples_;
-    PictureTiles tiles_;
-    Camera camera_;
-    bool resolves_;  ///< the samples, where the encoding pass cannot read them
     RoundColumns columns_in_picture(const SceneDescription& scene) const;
     /// Returns the scene's colliders and then its fixtures, at `time` (s).
     std::vector<Collider> drawn_bodies(double time) const;
 
-    std::vector<Collider> colliders_;
-    std::vector<Fixture> fixtures_;
-    std::vector<glsl::MeshCorner> mesh_corners_;  ///< if nothing deforms; otherwise those of the start
-    bool deforms_;                                ///< some mesh deforms: its corners are passed for every frame
-    bool has_floor_ = false;  ///< a plane that is not among the colliders here, since the encoding pass draws it
-    PlaneExtent plane_extent_;
+    struct Bodies {
+        std::vector<Collider> colliders;
+        std::vector<Fixture> fixtures;
+        std::vector<glsl::MeshCorner> mesh_corners;  ///< where nothing deforms; else those of the start
+        bool deforms;                                ///< some mesh does: its corners are told for every frame
+        bool has_floor = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
+        PlaneExtent plane_extent{};
+    };
+    struct AllPipelines {
+        Pipelines compute;
+        ClothPipelines cloth{}, shadow_cloth{};
+        std::vector<Draw> draws{}, shadow_draws{};
+        std::unique_ptr<vulkan::GraphicsPipeline> clearing{};
+        const vulkan::ComputePipeline* shadow_rows = nullptr;  ///< none without a shadow
+        std::uint32_t shadow_rows_invocations = 0;
+        const vulkan::ComputePipeline* encoding = nullptr;
+        const vulkan::ComputePipeline *cloth_tiles = nullptr,
+                                      *cut_cloth_tiles = nullptr;  ///< none of cut cloth without
+    };
+
+    std::uint32_t width_, height_, samples_;
+    PictureTiles tiles_;
+    Camera camera_;
+    bool resolves_;  ///< the samples, where the encoding pass cannot read them
+    Bodies bodies_;
     glsl::FrameConstants constants_;
     std::string shadow_skip_reason_;  ///< empty: there is a shadow
     View view_;
     std::optional<StrainScale> scale_;  ///< set for a heat map
-    ClothPipelines cloth_, shadow_cloth_;
-    std::vector<Draw> draws_, shadow_draws_;
-    std::unique_ptr<vulkan::GraphicsPipeline> clearing_;
-    Pipelines compute_;
-    const vulkan::ComputePipeline* shadow_rows_ = nullptr;  ///< none without a shadow
-    std::uint32_t shadow_rows_invocations_ = 0;
-    const vulkan::ComputePipeline* encoding_ = nullptr;
-    const vulkan::ComputePipeline *cloth_tiles_ = nullptr, *cut_cloth_tiles_ = nullptr;  ///< none of cut cloth without
+    AllPipelines pipelines_;
 };
 
 }  // namespace drape

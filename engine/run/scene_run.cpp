@@ -32,7 +32,7 @@ namespace {
 
 CutRecord cut_record(std::size_t frame, std::size_t index, std::size_t springs, const CutTopology& topology) {
     std::map<std::size_t, std::size_t> sizes;
-    const std::vector<std::size_t> piece_of = topology.pieces();
+    const std::vector<std::size_t> piece_of = pieces_of(topology);
     for (const std::size_t piece : piece_of) ++sizes[piece];
     CutRecord record{frame, index, springs, 0, 0, topology.rest_area(), topology.grid().triangle_indices()};
     for (const auto& [piece, size] : sizes) ++(100 * size >= piece_of.size() ? record.pieces : record.crumbs);

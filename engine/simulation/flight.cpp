@@ -5,7 +5,10 @@
 
 #include "cloth/members.h"
 #include "cloth/substep_change.h"
+#include "solver/contact_readback.h"
+#include "solver/host_inputs.h"
 #include "solver/readback_pass.h"
+#include "solver/statistics_pass.h"
 
 namespace drape {
 
@@ -40,7 +43,7 @@ void write_present(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight
     std::vector<bool> present(graphs.member_count() * each);
     for (const std::size_t member : flight.members)
         std::fill_n(present.begin() + static_cast<std::ptrdiff_t>(member * each), each, true);
-    graphs.solver().write_present(graphs.pool(), slot, present);
+    write_present(graphs.layout(), graphs.pool(), slot, present);
 }
 
 void write_changes(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
@@ -52,7 +55,7 @@ void write_changes(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight
         std::ranges::copy(substep_changes(graphs.member(member), work.history_substeps, work.substeps),
                           all.begin() + static_cast<std::ptrdiff_t>(member * each));
     }
-    graphs.solver().write_changes(graphs.pool(), slot, all);
+    write_changes(graphs.layout(), graphs.pool(), slot, all);
 }
 
 std::vector<ClothStatistics> statistics_in(const SimulationModel& run, std::uint32_t frame,
@@ -94,11 +97,11 @@ void FlightInputs::write(FrameGraphs& graphs, std::uint32_t slot, const Flight& 
     if (flight.contents.simulates || flight.contents.counts)
         write_frame(graphs, slot, flight);
     else
-        graphs.solver().write_constants(graphs.pool(), slot, graphs.joint().scene.solver.substeps);
+        write_constants(graphs.layout(), graphs.pool(), slot, graphs.joint().scene.solver.substeps);
     const double fps = graphs.joint().scene.time.fps;
     const std::uint32_t frame = flight.work().frame;
     if (flight.jobs.front().searches)
-        graphs.solver().write_cutters(graphs.pool(), slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
+        write_cutters(graphs.joint().scene, graphs.pool(), slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
     if (flight.contents.hands_out && graphs.raster()) graphs.raster()->write_frame(graphs.pool(), slot, frame / fps);
 }
 
@@ -106,7 +109,7 @@ void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Fl
     const std::uint32_t at = flight.contents.substeps;
     const SimulationModel& joint = graphs.joint_at(at);
     if (graphs.member_count() == 1)
-        return graphs.solver().write_inputs(graphs.pool(), slot, flight.work().frame, joint);
+        return write_inputs(graphs.layout(), graphs.pool(), slot, flight.work().frame, joint);
     const std::uint32_t substeps = joint.scene.solver.substeps;
     members_.resize(graphs.member_count());
     if (flight.members.size() < members_.size())
@@ -121,22 +124,22 @@ void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Fl
         if (!flight.contents.simulates) keep_last_set(own);
     }
     join_inputs(joint, members_, joined_);
-    graphs.solver().write_inputs(graphs.pool(), slot, joined_, substeps);
-    graphs.solver().write_constants(graphs.pool(), slot, substeps);
+    write_inputs(graphs.layout(), graphs.pool(), slot, joined_, substeps);
+    write_constants(graphs.layout(), graphs.pool(), slot, substeps);
 }
 
 std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
-    const ClothSolver& solver = graphs.solver();
+    const ClothLayout& layout = graphs.layout();
     const graph::ResourcePool& pool = graphs.pool();
     const bool is_single = graphs.member_count() == 1;
     const std::size_t each = graphs.cloths_each();
     const bool counts = flight.contents.counts, meets = flight.contents.simulates && graphs.joint().self_contact;
     const bool differs = compares(flight.work().before) || compares(flight.work().after);
     std::vector<std::span<const std::byte>> records;
-    if (counts && !is_single) records = solver.statistics_records(pool, slot);
+    if (counts && !is_single) records = statistics_records(layout, pool, slot);
     std::vector<double> differences;
-    if (differs) differences = solver.differences(pool, slot);
-    const double list_use = meets ? solver.self_list_use(solver.self_record(pool, slot)) : 0;
+    if (differs) differences = read_differences(layout, pool, slot);
+    const double list_use = meets ? self_list_use(layout, self_record(layout, pool, slot)) : 0;
     std::vector<WorkResult> results(flight.members.size());
     for (std::size_t place = 0; place < results.size(); ++place) {
         WorkResult& result = results[place];
@@ -144,10 +147,10 @@ std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, 
         const std::uint32_t frame = flight.jobs[place].work.frame;
         const SimulationModel& run = graphs.member_at(member, flight.contents.substeps);
         const auto own = [&](const auto& all) { return std::span(all).subspan(member * each, each); };
-        if (counts && is_single) result.statistics = solver.statistics(pool, slot, frame, run);
+        if (counts && is_single) result.statistics = read_statistics(layout, pool, slot, frame, run);
         if (counts && !is_single) result.statistics = statistics_in(run, frame, own(records));
         if (differs) result.differences.assign(own(differences).begin(), own(differences).end());
-        if (meets) result.contact = solver.self_record_of(pool, slot, member);
+        if (meets) result.contact = self_record_of(layout, pool, slot, member);
         result.list_use = list_use;
     }
     if (is_single) results.front().timings = graphs.timings(flight.contents, slot);
@@ -162,7 +165,7 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
     const bool hands_out = flight.contents.hands_out;
     Arrays arrays;
     const auto read = [&](bool wanted, std::string_view what) {
-        return hands_out && wanted && !options.arrays_later ? graphs.solver().readback(graphs.pool(), slot, what)
+        return hands_out && wanted && !options.arrays_later ? read_back(graphs.layout(), graphs.pool(), slot, what)
                                                             : std::vector<std::span<const float>>();
     };
     arrays.positions = read(options.positions, "position");

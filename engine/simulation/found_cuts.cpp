@@ -4,6 +4,7 @@
 
 #include "cloth/tear.h"
 #include "solver/cut_pass.h"
+#include "solver/state_transfer.h"
 #include "solver/tear_pass.h"
 #include "world/weather.h"
 
@@ -33,9 +34,9 @@ std::vector<Hit> found_hits(FrameGraphs& graphs, std::uint32_t slot, std::uint32
         const ClothModel& own = model.cloths[cloth];
         const bool crossed = found(cut_count_name(own)), overloaded = frame > 0 && found(tear_count_name(own));
         if (!crossed && !overloaded) continue;
-        graphs.solver().topologies()[cloth].set_stiffness(
+        graphs.layout().topologies[cloth].set_stiffness(
             static_cast<float>(stiffness_factor(model.scene, model.scene.cloths[cloth], frame)));
-        Hit& hit = hits.emplace_back(Hit{cloth, {}, {}, graphs.solver().cut_images(cloth)});
+        Hit& hit = hits.emplace_back(Hit{cloth, {}, {}, cut_images(graphs.layout(), cloth)});
         if (crossed) hit.cut = read_findings(pool, own);
         if (overloaded) hit.loads = read_tear_loads(pool, own);
     }
@@ -57,7 +58,7 @@ bool take_cuts(FrameGraphs& graphs, std::uint32_t slot, std::uint32_t frame, con
     bool new_resources = false, tore = false;
     const std::vector<Hit> hits = found_hits(graphs, slot, frame);
     for (const Hit& hit : hits) {
-        CutTopology& topology = graphs.solver().topologies()[hit.cloth];
+        CutTopology& topology = graphs.layout().topologies[hit.cloth];
         new_resources = new_resources || !topology.masked();
         const CutCounts counts = applied(topology, hit);
         tore = tore || counts.torn > 0;
@@ -65,10 +66,10 @@ bool take_cuts(FrameGraphs& graphs, std::uint32_t slot, std::uint32_t frame, con
         if (listener) listener({frame, hit.cloth, counts}, topology);
     }
     if (new_resources) {
-        graphs.rebuild(graphs.solver().download_state(graphs.pool()));
+        graphs.rebuild(download_state(graphs.layout(), graphs.pool()));
         return tore;
     }
-    for (const Hit& hit : hits) graphs.solver().upload_cut(graphs.pool(), hit.cloth, hit.before);
+    for (const Hit& hit : hits) upload_cut(graphs.layout(), graphs.pool(), hit.cloth, hit.before);
     if (!hits.empty()) graphs.draw_anew();
     return tore;
 }

@@ -2,13 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "solver/state_transfer.h"
+
 namespace drape {
 
 namespace {
 
-/// Notes what the frame leaves out, and why.
-void note_skipped(graph::Graph& graph, const FrameContents& contents, const FrameOptions& options,
-                  const SceneDescription& scene) {
+void note_skipped(graph::Graph& graph, const SceneDescription& scene, const FrameOptions& options,
+                  const FrameContents& contents) {
     if (!contents.cuts)
         graph.skip("cut search",
                    scene.cutters.empty() ? "no cutter in the scene" : "no cutter is active in this kind of frame");
@@ -89,13 +90,12 @@ void FrameGraphs::plan_known() {
     steps_.clear();
     fit_raster();
     for (const FrameContents& contents : known_contents()) planned(contents);
-    for (std::size_t set = 0; set < state_set_count; ++set)
-        for (const StateStep step : state_steps(*joint_, static_cast<StateSet>(set))) {
-            PlannedGraph& planned = steps_[{static_cast<StateSet>(set), step}];
-            planned = {};
-            solver_.declare(planned.graph, {}, *joint_, static_cast<StateSet>(set));
-            solver_.add_attempt(planned.graph, step);
-            planned.plan = graph::make_plan(planned.graph);
+    for (std::size_t k = 0; k < state_set_count; ++k)
+        for (const auto set = static_cast<StateSet>(k); const StateStep step : state_steps(*joint_, set)) {
+            PlannedGraph& around = steps_[{set, step}];
+            solver_.declare(around.graph, {}, *joint_, set);
+            solver_.add_attempt(around.graph, step);
+            around.plan = graph::make_plan(around.graph);
         }
 }
 
@@ -106,7 +106,7 @@ const PlannedGraph& FrameGraphs::planned(const FrameContents& contents) {
 }
 
 void FrameGraphs::fit_raster() {
-    if (options_.draw) raster_.fit(device_, joint_->scene, options_, solver_.topologies());
+    if (options_.draw) raster_.fit(device_, joint_->scene, options_, solver_.layout().topologies);
 }
 
 PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
@@ -122,7 +122,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
         solver_.add_forms(graph);
     if (contents.cuts) solver_.add_cuts(graph);
     if (contents.tears) solver_.add_tears(graph);
-    note_skipped(graph, contents, options_, joint_->scene);
+    note_skipped(graph, joint_->scene, options_, contents);
     if (contents.hands_out) add_hand_out(graph);
     if (contents.counts) solver_.add_statistics(graph);
     planned.plan = graph::make_plan(graph);
@@ -156,14 +156,14 @@ void FrameGraphs::allocate() {
     if (!planned_all_) plan_known();
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
-    solver_.upload(*pool_);
+    upload_start(solver_.layout(), *pool_);
     if (raster_) raster_->upload(*pool_);
 }
 
 void FrameGraphs::rebuild(const SimulationState& state) {
     plan_known();
     allocate();
-    solver_.upload_state(*pool_, state);
+    upload_state(solver_.layout(), *pool_, state);
 }
 
 void FrameGraphs::draw_anew() {
@@ -173,23 +173,20 @@ void FrameGraphs::draw_anew() {
     for (const FrameContents& contents : known_contents()) planned(contents);
 }
 
-void FrameGraphs::record(PlannedGraph& planned) const {
+VkCommandBuffer FrameGraphs::commands(PlannedGraph& planned, std::uint32_t slot) const {
     if (!planned.recorded)
         planned.recorded = std::make_unique<graph::RecordedPlan>(planned.graph, planned.plan, *pool_,
                                                                  options_.timestamps, options_.barrier_filter);
+    return planned.recorded->commands(slot);
 }
 
 VkCommandBuffer FrameGraphs::commands(const FrameContents& contents, std::uint32_t slot) {
     planned(contents);
-    PlannedGraph& frame = frames_.at(contents);
-    record(frame);
-    return frame.recorded->commands(slot);
+    return commands(frames_.at(contents), slot);
 }
 
 VkCommandBuffer FrameGraphs::commands(StateStep step, StateSet set, std::uint32_t slot) {
-    PlannedGraph& planned = steps_.at({set, step});
-    record(planned);
-    return planned.recorded->commands(slot);
+    return commands(steps_.at({set, step}), slot);
 }
 
 std::vector<StageTime> FrameGraphs::timings(const FrameContents& contents, std::uint32_t slot) const {

@@ -86,8 +86,8 @@ class FrameGraphs {
     /// Returns the times that the device measured in the slot's last submit of a frame.
     std::vector<StageTime> timings(const FrameContents& contents, std::uint32_t slot) const;
 
-    ClothSolver& solver() { return solver_; }
-    const ClothSolver& solver() const { return solver_; }
+    ClothLayout& layout() { return solver_.layout(); }
+    const ClothLayout& layout() const { return solver_.layout(); }
     ClothRaster& raster() { return raster_; }
     const graph::ResourcePool& pool() const { return *pool_; }
 
@@ -105,7 +105,7 @@ class FrameGraphs {
     void fit_raster();
     PlannedGraph plan(const FrameContents& contents);
     void add_hand_out(graph::Graph& graph);
-    void record(PlannedGraph& planned) const;
+    VkCommandBuffer commands(PlannedGraph& planned, std::uint32_t slot) const;
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans() const;
 
     const vulkan::Device& device_;

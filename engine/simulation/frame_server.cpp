@@ -4,6 +4,9 @@
 #include <map>
 #include <tuple>
 
+#include "solver/contact_readback.h"
+#include "solver/state_transfer.h"
+
 namespace drape {
 
 namespace {
@@ -138,16 +141,16 @@ void FrameServer::submit(std::uint32_t slot, Flight flight) {
 /// goes back to an earlier frame asks for it again.
 bool FrameServer::lengthened_lists(std::uint32_t slot) {
     Flight& flight = *flights_[slot];
-    ClothSolver& solver = graphs_.solver();
+    ClothLayout& layout = graphs_.layout();
     if (!flight.contents.simulates || !graphs_.joint().self_contact) return false;
-    const glsl::SelfRecord record = solver.self_record(graphs_.pool(), slot);
-    if (solver.self_list_use(record) <= 1 || !solver.grow_lists(record)) return false;
+    const glsl::SelfRecord record = self_record(layout, graphs_.pool(), slot);
+    if (self_list_use(layout, record) <= 1 || !grow_lists(layout.lists, record)) return false;
     deliver((slot + 1) % vulkan::frame_slot_count);
     Flight again = std::move(flight);
     flights_[slot].reset();
     slots_.submit(slot, graphs_.commands(StateStep::restore, again.contents.set, slot));
     slots_.wait(slot);
-    graphs_.rebuild(solver.download_state(graphs_.pool()));
+    graphs_.rebuild(download_state(layout, graphs_.pool()));
     if (again.work().attempt > 0)
         runs_.front()->attempt_anew(again.jobs.front());
     else

@@ -11,6 +11,7 @@
 #include "base/byte_stream.h"
 #include "simulation/member_state.h"
 #include "solver/readback_pass.h"
+#include "solver/state_transfer.h"
 
 namespace drape {
 
@@ -33,7 +34,7 @@ FrameOptions frame_options(const SimulationModel& model, const MemberFrameOption
 
 /// Returns what was read back of one cloth among all of a server's, in its only slot.
 std::span<const float> read_back(const FrameServer& server, std::size_t cloth, std::string_view what) {
-    return server.graphs().solver().readback(server.graphs().pool(), 0, what)[cloth];
+    return read_back(server.graphs().layout(), server.graphs().pool(), 0, what)[cloth];
 }
 
 template <class Archive, class Arrays>
@@ -52,7 +53,7 @@ std::vector<const SimulationModel*> models_of(const Members& members, const std:
 bool fit_together(const vulkan::Device& device, const std::vector<const SimulationModel*>& models,
                   const Kernels& kernels) {
     const SimulationModel all(models);
-    return ClothSolver(device, all, kernels, true).all_together();
+    return ClothSolver(device, all, kernels, true).layout().all_together();
 }
 
 }  // namespace
@@ -233,7 +234,7 @@ void MemberFrames::put_back(std::size_t number) {
     for (std::size_t k = 0; k < lasting_arrays.size(); ++k)
         for (std::size_t cloth = 0; cloth < each; ++cloth) {
             const std::size_t place = seat.place * each + cloth;
-            const std::vector<std::byte> bytes = server.graphs().solver().start_of_field(place, lasting_fields[k]);
+            const std::vector<std::byte> bytes = start_of_field(server.graphs().layout(), place, lasting_fields[k]);
             std::memcpy(const_cast<float*>(read_back(server, place, lasting_arrays[k]).data()), bytes.data(),
                         bytes.size());
         }
@@ -316,7 +317,7 @@ MemberArray MemberFrames::array(std::size_t cloth, MemberValue value) const {
     // Members that share dispatches are one group. In what the device left, their positions may be evenly spaced.
     const FrameGraphs& graphs = first.server->graphs();
     const std::size_t each = graphs.cloths_each();
-    const auto read = [&](std::string_view what) { return graphs.solver().readback(graphs.pool(), 0, what); };
+    const auto read = [&](std::string_view what) { return read_back(graphs.layout(), graphs.pool(), 0, what); };
     const auto positions = read("position");
     const auto of = [&](std::size_t member) { return positions[member * each + cloth].data(); };
     const std::ptrdiff_t step = of(1) - of(0);

@@ -18,8 +18,8 @@ void MemberRun::ask(const FrameRequest& request) {
 }
 
 bool MemberRun::can_save() const {
-    // A closed loop that is stopped within a segment forgets its frames. Frame 0 exists before any frame is simulated.
-    return begun_ || (withheld_.empty() && std::max(next_frame_, 1u) >= pilot_->simulated());
+    // A closed loop that is stopped within frames forgets them. Frame 0 is there before any is simulated.
+    return begun_ || (waiting_.withheld.empty() && std::max(next_frame_, 1u) >= pilot_->simulated());
 }
 
 bool MemberRun::cutters_active_in(std::uint32_t frame) const {
@@ -32,7 +32,7 @@ bool MemberRun::searched(std::uint32_t frame) const {
 }
 
 std::optional<Job> MemberRun::next_job() {
-    if (over_ || unfinished_ > 0) return std::nullopt;
+    if (over_ || jobs_.unfinished > 0) return std::nullopt;
     for (;;) {
         if (begun_) {
             if (const auto& refusal = pilot_->refusal(); refusal && listener_.keep_promises) raise(*refusal);
@@ -43,7 +43,7 @@ std::optional<Job> MemberRun::next_job() {
             }
             if (work->attempt > 0 && stopped()) {
                 pilot_->abandon(*work);
-                withheld_.clear();
+                waiting_.withheld.clear();
                 begun_ = false;
                 over_ = forgets_ = true;
                 work = pilot_->next_work();
@@ -82,8 +82,8 @@ std::optional<Job> MemberRun::first_job() {
             .searches = searched(0)};
     if (job.searches) job.until = Job::Until::delivered;
     ++next_frame_;
-    ++undelivered_;
-    unfinished_ += job.until != Job::Until::submitted;
+    ++jobs_.undelivered;
+    jobs_.unfinished += job.until != Job::Until::submitted;
     return job;
 }
 
@@ -100,21 +100,21 @@ std::optional<Job> MemberRun::job_of(Work work) {
     own.hands_out = job.wanted;
     if (is_known && !job.wanted && !job.searches) return std::nullopt;
     if (own.attempt > 0 && listener_.on_attempt) listener_.on_attempt({own.frame, own.substeps, own.attempt});
-    if (own.attempt > 0 && own.before) withheld_.clear();  // another attempt begins
+    if (own.attempt > 0 && own.before) waiting_.withheld.clear();  // another attempt begins
     const bool ends_probe = is_known && own.known->withheld && own.frame + 1 == pilot_->simulated();
     if (job.searches || ends_probe)
         job.until = Job::Until::delivered;
     else if (own.awaited || (own.simulates && model_.self_contact))
         job.until = Job::Until::settled;
-    ++undelivered_;
-    unfinished_ += job.until != Job::Until::submitted;
+    ++jobs_.undelivered;
+    jobs_.unfinished += job.until != Job::Until::submitted;
     return job;
 }
 
 void MemberRun::attempt_anew(const Job& job) {
-    --undelivered_;
-    unfinished_ -= job.until != Job::Until::submitted;
-    withheld_.clear();
+    --jobs_.undelivered;
+    jobs_.unfinished -= job.until != Job::Until::submitted;
+    waiting_.withheld.clear();
     pilot_->attempt_anew();
 }
 
@@ -123,16 +123,16 @@ FrameEffort MemberRun::settle(const Job& job, const WorkResult& result) {
     const FrameEffort effort = pilot_->take(work, result);
     if (work.simulates && work.set == StateSet::run && work.attempt == 0)
         note_contact(work.frame, result.contact, result.list_use);
-    if (job.until == Job::Until::settled) --unfinished_;
+    if (job.until == Job::Until::settled) --jobs_.unfinished;
     return effort;
 }
 
 void MemberRun::deliver(const Job& job, const FinishedFrame& frame) {
-    --undelivered_;
-    if (job.until == Job::Until::delivered) --unfinished_;
+    --jobs_.undelivered;
+    if (job.until == Job::Until::delivered) --jobs_.unfinished;
     const Work& work = job.work;
     if (job.wanted && work.known && work.known->withheld) {
-        if (!forgets_) withheld_.emplace_back().keep(frame);
+        if (!forgets_) waiting_.withheld.emplace_back().keep(frame);
         return;
     }
     if (job.wanted) return give(frame);
@@ -152,7 +152,7 @@ void MemberRun::end_frames() {
             // Frames after the last requested one are withheld.
             if (frame <= request_.last && !request_.wanted(frame)) pass_over(frame, kept->statistics[k], kept->effort);
         }
-        for (FrameCopy& copy : withheld_) copy.effort() = kept->effort;
+        for (FrameCopy& copy : waiting_.withheld) copy.effort() = kept->effort;
         return release_withheld();
     }
     ++next_frame_;
@@ -178,30 +178,30 @@ void MemberRun::give(const FinishedFrame& frame) {
 /// Hands out the next of the frames that were simulated earlier.
 void MemberRun::release_withheld() {
     const std::uint32_t frame = next_frame_++;
-    if (!withheld_.empty() && withheld_.front().frame().frame == frame) {
-        const FrameCopy copy = std::move(withheld_.front());
-        withheld_.pop_front();
+    if (!waiting_.withheld.empty() && waiting_.withheld.front().frame().frame == frame) {
+        const FrameCopy copy = std::move(waiting_.withheld.front());
+        waiting_.withheld.pop_front();
         if (request_.wanted(frame))
             give(copy.frame());
         else
             pass_over(frame, copy.frame().statistics, copy.frame().effort);
     }
-    if (undelivered_ == 0) tell_passed_over(frame + 1);
+    if (jobs_.undelivered == 0) tell_passed_over(frame + 1);
 }
 
 void MemberRun::pass_over(std::uint32_t frame, const std::vector<ClothStatistics>& statistics,
                           const FrameEffort& effort) {
     if (!listener_.on_passed_over) return;
-    FinishedFrame& passed = passed_over_.emplace_back();
+    FinishedFrame& passed = waiting_.passed_over.emplace_back();
     passed.frame = frame;
     passed.statistics = statistics;
     passed.effort = effort;
 }
 
 void MemberRun::tell_passed_over(std::uint32_t end) {
-    while (!passed_over_.empty() && passed_over_.front().frame < end) {
-        const FinishedFrame frame = std::move(passed_over_.front());
-        passed_over_.pop_front();
+    while (!waiting_.passed_over.empty() && waiting_.passed_over.front().frame < end) {
+        const FinishedFrame frame = std::move(waiting_.passed_over.front());
+        waiting_.passed_over.pop_front();
         listener_.on_passed_over(frame);
     }
 }
@@ -215,8 +215,8 @@ void MemberRun::write(ByteWriter& writer) const {
 }
 
 void MemberRun::read(ByteReader& reader) {
-    withheld_.clear();  // they belong to a probe whose motion is abandoned
-    passed_over_.clear();
+    waiting_.withheld.clear();  // a probe's, of the motion that is left
+    waiting_.passed_over.clear();
     reader(next_frame_);
     if (self_contact_) transfer_report(reader, *self_contact_);
     pilot_->read(reader);

@@ -70,6 +70,14 @@ class MemberRun {
     void skip_start() { next_frame_ = 1; }
 
   private:
+    struct Jobs {
+        int unfinished = 0, undelivered = 0;  ///< those that it waits for, and whose frames were not delivered
+    };
+    struct Frames {
+        std::deque<FrameCopy> withheld;         ///< those that are simulated and not handed out yet
+        std::deque<FinishedFrame> passed_over;  ///< those of a closed loop that are not wanted and not told of yet
+    };
+
     bool stopped() const { return request_.stop && request_.stop(); }
     std::optional<Job> first_job();
     std::optional<Job> job_of(Work work);
@@ -88,13 +96,12 @@ class MemberRun {
     std::optional<SelfContactReport> self_contact_;
     FrameRequest request_;
     std::uint32_t next_frame_ = 0;
-    bool begun_ = false;                     ///< the pilot has begun frames and is asked for their work
-    bool complete_ = true;                   ///< nothing was requested, or all of it is done
-    bool over_ = true;                       ///< no more work is to be asked for
-    bool forgets_ = false;                   ///< frames that are withheld or in flight were abandoned
-    int unfinished_ = 0, undelivered_ = 0;   ///< jobs to be settled, and jobs whose frames are to be delivered
-    std::deque<FrameCopy> withheld_;         ///< frames that were simulated and not yet handed out
-    std::deque<FinishedFrame> passed_over_;  ///< frames of a closed loop that were not requested and not yet reported
+    bool begun_ = false;    ///< the pilot is asked for the work of frames that it has begun
+    bool complete_ = true;  ///< nothing is asked for, or all of it is done
+    bool over_ = true;      ///< nothing more is to be asked for
+    bool forgets_ = false;  ///< frames that are withheld and in flight were abandoned
+    Jobs jobs_;
+    Frames waiting_;
 };
 
 }  // namespace drape

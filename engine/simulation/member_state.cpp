@@ -12,6 +12,7 @@
 #include "cloth/contact_state.h"
 #include "cloth/directions.h"
 #include "cloth/texels.h"
+#include "solver/state_transfer.h"
 
 namespace drape {
 
@@ -59,20 +60,21 @@ void save_shared(const FrameGraphs& graphs, std::size_t member, SimulationState&
     std::vector<std::size_t> cloths(graphs.cloths_each());
     std::iota(cloths.begin(), cloths.end(), member * cloths.size());
     for_each_set(graphs.joint(), [&](StateSet set) {
-        const std::vector<ClothBytes> fields = graphs.solver().download_cloths(graphs.pool(), cloths, set);
+        const std::vector<ClothBytes> fields = download_cloths(graphs.layout(), graphs.pool(), cloths, set);
         for_each_field(graphs, member, set, [&](std::size_t cloth, const FieldRow& row, const std::string& name) {
             if (auto bytes = field_of(fields[cloth], row.field); !bytes.empty()) state[name] = std::move(bytes);
         });
     });
-    if (graphs.joint().self_contact) state[borne_part()] = graphs.solver().download_borne(graphs.pool())[member];
+    if (graphs.joint().self_contact)
+        state[borne_part()] = download_borne(*graphs.joint().self_contact, graphs.pool())[member];
 }
 
 void save_single(const FrameGraphs& graphs, SimulationState& state) {
     const SimulationModel& model = graphs.joint();
-    for (auto& [name, bytes] : graphs.solver().download_state(graphs.pool()))
+    for (auto& [name, bytes] : download_state(graphs.layout(), graphs.pool()))
         state[std::string(field_prefix) + name] = std::move(bytes);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        const CutTopology& topology = graphs.solver().topologies()[cloth];
+        const CutTopology& topology = graphs.layout().topologies[cloth];
         if (model.scene.comes_apart() && topology.masked()) state[cuts_part(model.cloths[cloth])] = cut_bytes(topology);
     }
 }
@@ -80,7 +82,7 @@ void save_single(const FrameGraphs& graphs, SimulationState& state) {
 void restore_cuts(FrameGraphs& graphs, const SimulationState& state) {
     const SimulationModel& model = graphs.joint();
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        CutTopology& topology = graphs.solver().topologies()[cloth];
+        CutTopology& topology = graphs.layout().topologies[cloth];
         if (model.scene.comes_apart()) topology = CutTopology(topology.cloth());
         const auto part = state.find(cuts_part(model.cloths[cloth]));
         if (part == state.end()) continue;
@@ -97,9 +99,9 @@ void restore_single(FrameGraphs& graphs, const SimulationState& state) {
     SimulationState fields;
     for (const auto& [name, bytes] : state)
         if (name.starts_with(field_prefix)) fields[name.substr(field_prefix.size())] = bytes;
-    for (const auto& [name, bytes] : graphs.solver().download_state(graphs.pool())) {
+    for (const auto& [name, bytes] : download_state(graphs.layout(), graphs.pool())) {
         const auto found = fields.find(name);
-        if (found == fields.end() || !graphs.solver().takes(name, bytes, found->second))
+        if (found == fields.end() || !takes(graphs.layout(), name, bytes, found->second))
             refuse(fmt::format("field '{}'", name));
     }
     graphs.rebuild(fields);
@@ -108,12 +110,12 @@ void restore_single(FrameGraphs& graphs, const SimulationState& state) {
 /// Restores what members' contacts bore; empty bytes: nothing.
 void put_borne(FrameGraphs& graphs, std::span<const std::size_t> members,
                const std::vector<std::vector<std::byte>>& own) {
-    ClothSolver& solver = graphs.solver();
-    std::vector<std::vector<std::byte>> all = solver.download_borne(graphs.pool());
+    ClothLayout& layout = graphs.layout();
+    std::vector<std::vector<std::byte>> all = download_borne(*layout.model.self_contact, graphs.pool());
     for (std::size_t i = 0; i < members.size(); ++i) all[members[i]] = own[i];
-    if (solver.upload_borne(graphs.pool(), all)) return;
-    graphs.rebuild(solver.download_state(graphs.pool()));
-    if (!solver.upload_borne(graphs.pool(), all))
+    if (upload_borne(layout, graphs.pool(), all)) return;
+    graphs.rebuild(download_state(layout, graphs.pool()));
+    if (!upload_borne(layout, graphs.pool(), all))
         throw vulkan::VulkanError("a buffer of the device has no room for what the members' contacts bore");
 }
 
@@ -141,7 +143,7 @@ void restore_shared(FrameGraphs& graphs, std::span<const std::size_t> members,
                 by_cloth[members[i] * each + cloth] = &fields[i * each + cloth];
         }
         try {
-            graphs.solver().upload_cloths(graphs.pool(), by_cloth, set);
+            upload_cloths(graphs.layout(), graphs.pool(), by_cloth, set);
         } catch (const std::invalid_argument& wrong) {
             throw Error(wrong.what());
         }
@@ -194,7 +196,7 @@ void put_starts(FrameServer& server, std::span<const std::size_t> members) {
     std::map<std::size_t, const ClothBytes*> starts;
     for (const std::size_t member : members)
         for (std::size_t cloth = 0; cloth < each; ++cloth) starts[member * each + cloth] = nullptr;
-    for_each_set(graphs.joint(), [&](StateSet set) { graphs.solver().upload_cloths(graphs.pool(), starts, set); });
+    for_each_set(graphs.joint(), [&](StateSet set) { upload_cloths(graphs.layout(), graphs.pool(), starts, set); });
     if (graphs.joint().self_contact) put_borne(graphs, members, std::vector<std::vector<std::byte>>(members.size()));
 }
 

@@ -197,7 +197,7 @@ struct Simulation::Parts {
 
     bool is_alone() const { return server->size() == 1; }
     MemberRun& run() { return server->member(number); }
-    std::vector<CutTopology>& topologies() { return server->graphs().solver().topologies(); }
+    std::vector<CutTopology>& topologies() { return server->graphs().layout().topologies; }
     /// Returns the graphs of this scene alone.
     FrameGraphs& graphs() {
         if (is_alone()) return server->graphs();
@@ -362,7 +362,7 @@ SimulationFacts Simulation::facts() const {
     FrameGraphs& graphs = parts_->graphs();
     const graph::Plan& simulate = graphs.planned(graphs.contents(true, false)).plan;
     SimulationFacts facts{.method = std::string(model.method().name),
-                          .kernels = used_kernels(model, graphs.solver().kernels()).text(),
+                          .kernels = used_kernels(model, graphs.layout().kernels).text(),
                           .asked_method = std::string(named(model.asked_method).name),
                           .choice_reason = model.choice.reason,
                           .tolerance = model.asked_tolerance,

@@ -1,5 +1,7 @@
 #include "solver/attempt_pass.h"
 
+#include <cstring>
+
 #include "cloth/difference.h"
 #include "solver/cloth_constants.h"
 #include "solver/compute_pass.h"
@@ -203,6 +205,16 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
             return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
                                position_in(graph, state, StateSet::disturbed));
     }
+}
+
+std::vector<double> read_differences(const ClothLayout& layout, const graph::ResourcePool& pool, std::uint32_t slot) {
+    std::vector<double> all;
+    for (const auto bytes : layout.parts(pool, slot, difference_readback_name)) {
+        std::vector<glsl::DifferenceRecord> partials(bytes.size() / sizeof(glsl::DifferenceRecord));
+        std::memcpy(partials.data(), bytes.data(), bytes.size());
+        all.push_back(difference_of(partials));
+    }
+    return all;
 }
 
 }  // namespace drape

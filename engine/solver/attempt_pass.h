@@ -2,7 +2,7 @@
 // it, giving it substeps of another length, remembering where a run with half the substeps ended, comparing with it.
 #pragma once
 
-#include "solver/pass_kit.h"
+#include "solver/cloth_layout.h"
 
 namespace drape {
 
@@ -15,5 +15,7 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, StateStep
 /// `first_change`: place in `attempt` of the change of the state's first cloth; the others' follow.
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                  const SimulationModel& run, StateStep step, std::size_t first_change);
+/// Returns how far the slot's last comparison found each cloth from the coarse run, m.
+std::vector<double> read_differences(const ClothLayout& layout, const graph::ResourcePool& pool, std::uint32_t slot);
 
 }  // namespace drape

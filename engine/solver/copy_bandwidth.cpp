@@ -45,7 +45,7 @@ void add_shader(graph::Graph& graph, Pipelines& pipelines, graph::Handle source,
 CopyRuler copy_ruler(const vulkan::Device& device) {
     if (device.info().type == "cpu") return {false, 64 * mebibyte};
     const std::uint64_t room = std::min<std::uint64_t>(
-        {device.limits().maxStorageBufferRange, device.max_buffer_size(), device.budget().limit() / 4});
+        {device.limits().maxStorageBufferRange, device.capabilities().max_buffer_size, device.budget().limit() / 4});
     std::uint64_t byte_count = 1024 * mebibyte;
     while (byte_count > 64 * mebibyte && byte_count > room) byte_count /= 2;
     return {true, byte_count};

@@ -67,8 +67,8 @@ std::string store_obstacle(const vulkan::Device& device, const SimulationModel& 
 /// Why no subgroup can hand on what its lanes keep in registers.
 std::string shuffle_obstacle(const vulkan::Device& device, const SimulationModel&) {
     constexpr auto lanes = static_cast<std::uint32_t>(glsl::stream_lanes);
-    return device.shuffles(lanes) ? std::string()
-                                  : fmt::format("the device has no subgroups of {} that shuffle", lanes);
+    return device.capabilities().shuffles(lanes) ? std::string()
+                                                 : fmt::format("the device has no subgroups of {} that shuffle", lanes);
 }
 
 /// Why no workgroup can hold a tile of so many particles a side.
@@ -90,16 +90,17 @@ std::string no_obstacle(const vulkan::Device&, const SimulationModel&) { return 
 /// Why no workgroup can hold lines in parts, each of a full subgroup's.
 std::string parts_obstacle(const vulkan::Device& device, const SimulationModel&) {
     constexpr std::uint32_t least = 4 * glsl::part_lines;
-    const bool has_least = device.subgroup() >= least && device.shuffles(device.subgroup());
-    if (!has_least) return fmt::format("the device has no subgroups of {} and more that shuffle", least);
-    return device.full_subgroups() ? std::string() : "the device does not promise full subgroups";
+    const vulkan::DeviceCapabilities& has = device.capabilities();
+    if (has.subgroup < least || !has.shuffles(has.subgroup))
+        return fmt::format("the device has no subgroups of {} and more that shuffle", least);
+    return has.full_subgroups ? std::string() : "the device does not promise full subgroups";
 }
 
 /// Returns the workgroups that kernels ask for, as far as a device has them.
 GroupLimits group_limits(const vulkan::Device& device, const GroupLimits& asked) {
     const VkPhysicalDeviceLimits& limits = device.limits();
     return {std::min({asked.invocations, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]}),
-            std::min(asked.shared_bytes, limits.maxComputeSharedMemorySize), device.subgroup()};
+            std::min(asked.shared_bytes, limits.maxComputeSharedMemorySize), device.capabilities().subgroup};
 }
 
 /// A kernel, the kind of device that it is the fastest on (`drape bench speed --tune` measures it), the kernel that it
@@ -148,7 +149,7 @@ DeviceKind device_kind(const vulkan::DeviceInfo& device) {
 }
 
 std::string state_obstacle(const vulkan::Device& device, const Grid& grid, std::uint32_t count, bool buffered) {
-    if (buffered && !device.wide_integers()) return "the device's shaders have no integers of 64 bits";
+    if (buffered && !device.capabilities().wide_integers) return "the device's shaders have no integers of 64 bits";
     std::vector<std::string> slices(count > 1 ? count : 0);
     if (count > 1) slices[1] = "slice of the state";  // where one may begin, all may
     for (const StateImage& image : state_images(grid)) {

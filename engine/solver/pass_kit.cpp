@@ -22,11 +22,11 @@ std::string in_set(const std::string& name, const Row& row, StateSet set) {
 }  // namespace
 
 std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set) {
-    return in_set(cloth.name + "/" + std::string(row.name), row, set);
+    return resource_name(cloth.name, row, set);
 }
 
-std::string resource_name(const ClothState& whole, const FieldRow& row, StateSet set) {
-    return in_set(whole.name + "/" + std::string(row.name), row, set);
+std::string resource_name(const std::string& state, const FieldRow& row, StateSet set) {
+    return in_set(state + "/" + std::string(row.name), row, set);
 }
 
 std::string resource_name(const ContactRow& row, StateSet set) { return in_set(resource_name(row), row, set); }

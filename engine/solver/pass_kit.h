@@ -79,6 +79,8 @@ struct ContactHandles {
     bool buffered = false;     ///< passes store to the sheet's images through their buffer views
 };
 
+inline constexpr const char* mesh_fields_name = "mesh fields";
+
 /// The inputs of the whole scene.
 struct SceneInputs {
     graph::Handle wind;         ///< a vec4 per substep, m/s
@@ -92,8 +94,8 @@ struct SceneInputs {
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.
 std::string resource_name(const ClothModel& cloth, const FieldRow& row, StateSet set = StateSet::run);
-/// The one of cloths that are simulated together.
-std::string resource_name(const ClothState& whole, const FieldRow& row, StateSet set = StateSet::run);
+/// The one of a state with this name (ClothState::name), which cloths that are simulated together have one of.
+std::string resource_name(const std::string& state, const FieldRow& row, StateSet set = StateSet::run);
 /// The resource of a field of contact.
 std::string resource_name(const ContactRow& row, StateSet set);
 /// Returns a name in every set, each once: what is not of the state has the same name in all.

@@ -45,7 +45,7 @@ class Pipelines {
     /// Invocations across and down that take all particles of a grid, strip_rows() x strip_columns() each
     /// (shaders/self_near.comp).
     std::array<std::uint32_t, 2> over_parts(glsl::ivec2 grid) const;
-    bool wide_atomics() const { return device_.wide_atomics(); }
+    bool wide_atomics() const { return device_.capabilities().wide_atomics; }
 
   private:
     bool is_cpu() const { return device_.info().type == "cpu"; }

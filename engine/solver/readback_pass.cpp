@@ -28,6 +28,15 @@ void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle im
         });
 }
 
+std::vector<std::span<const float>> read_back(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                              std::uint32_t slot, std::string_view what) {
+    std::vector<std::span<const float>> views;
+    const auto name_of = [&](const std::string& state) { return readback_name(state, what); };
+    for (const auto bytes : layout.parts(pool, slot, name_of))
+        views.push_back({reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)});
+    return views;
+}
+
 void add_buffer_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle buffer, std::uint64_t offset,
                          std::uint64_t byte_count, const std::string& host_name) {
     const graph::Handle empty = graph.buffer({host_name, byte_count, graph::Lifetime::host_output});

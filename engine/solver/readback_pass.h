@@ -1,7 +1,7 @@
 // Images of the state to the host, for exports and checks; never on the simulation's way.
 #pragma once
 
-#include "solver/pass_kit.h"
+#include "solver/cloth_layout.h"
 
 namespace drape {
 
@@ -11,6 +11,10 @@ std::string readback_name(const std::string& state, std::string_view what);
 
 /// Copies an image of four floats per particle, the cloths' `what`, into a host_output buffer.
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what);
+
+/// Returns what the slot's last frame read back of each cloth, particle by particle.
+std::vector<std::span<const float>> read_back(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                              std::uint32_t slot, std::string_view what);
 
 /// Returns what the statistics take for the velocity (end_velocity.h), m/s: x y z and 0 per particle, of displacement
 /// and excess displacement that were read back, m per substep.

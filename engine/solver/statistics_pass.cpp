@@ -1,6 +1,9 @@
 #include "solver/statistics_pass.h"
 
+#include <cstring>
+
 #include "solver/cloth_constants.h"
+#include "solver/readback_pass.h"
 #include "solver/step_row.h"
 
 namespace drape {
@@ -11,6 +14,21 @@ namespace {
 std::uint32_t strip_count(const Grid& grid) {
     constexpr auto rows = static_cast<std::uint32_t>(glsl::statistics_rows);
     return (grid.rows() + rows - 1) / rows;
+}
+
+std::string iteration_readback_name(const std::string& state) { return state + "/iterations on the host"; }
+
+/// Adds the tension that steps of a method do not keep.
+void add_tension(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SimulationModel& model) {
+    const Grid& grid = state.model->grid;
+    const std::vector<graph::PushConstants> each =
+        pushes_of(state, model, [](const ClothModel& cloth) { return *cloth.scheme.gathered_tension; });
+    const std::string module = "tension.comp";
+    graph::Handle own = own_constants(graph, state, module, "tension", each);
+    const auto value = [&](std::string_view) { return state.own_rest(); };
+    add_compute_pass(graph, state.pass_name("tension", "statistics"), pipelines.get(module, value, own.valid()),
+                     each.front(), {grid.columns(), grid.rows(), state.count()},
+                     {&state, nullptr, {}, {{"constants", &own}}});
 }
 
 /// Records of a cloth that the first pass leaves.
@@ -60,6 +78,7 @@ std::string statistics_readback_name(const std::string& state) { return state + 
 
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model) {
+    if (state.model->scheme.gathered_tension) add_tension(graph, pipelines, state, model);
     graph::Handle records = add_partials(graph, pipelines, state, inputs, model);
     const std::uint32_t partials = partial_count(state.model->grid), chunks = chunk_count(partials);
     if (chunks > 1) {
@@ -70,6 +89,31 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name),
                                                                       state.count(), graph::Lifetime::host_output);
     add_sum(graph, pipelines, state, "statistics sum", records, chunks > 1 ? chunks : partials, result);
+    if (model.adaptive())
+        add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
+                            glsl::iteration_size_count * sizeof(glsl::uvec4), sizeof(glsl::uvec4),
+                            iteration_readback_name(state.name));
+}
+
+std::vector<std::span<const std::byte>> statistics_records(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                                           std::uint32_t slot) {
+    return layout.parts(pool, slot, statistics_readback_name);
+}
+
+std::vector<ClothStatistics> read_statistics(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                             std::uint32_t slot, std::uint32_t frame, const SimulationModel& run) {
+    std::vector<ClothStatistics> all;
+    const std::vector<std::span<const std::byte>> records = statistics_records(layout, pool, slot);
+    for (const ClothModel& cloth : run.cloths) {
+        glsl::StatisticsRecord record;
+        std::memcpy(&record, records[all.size()].data(), sizeof record);
+        all.push_back(cloth_statistics(run, cloth, record, frame));
+        if (!run.adaptive()) continue;
+        glsl::uvec4 used;
+        std::memcpy(&used, pool.buffer(iteration_readback_name(cloth.name), slot).mapped().data(), sizeof used);
+        all.back().iteration_count = used.x;
+    }
+    return all;
 }
 
 }  // namespace drape

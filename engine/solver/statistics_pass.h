@@ -2,16 +2,24 @@
 #pragma once
 
 #include "cloth/cloth_statistics.h"
-#include "solver/pass_kit.h"
+#include "solver/cloth_layout.h"
 
 namespace drape {
 
 /// Host output buffer with a glsl::StatisticsRecord per cloth of a state (ClothState::name, count).
 std::string statistics_readback_name(const std::string& state);
 
-/// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". The sums are trees in a
+/// Reads position, displacement, [stiffness, mass share], [colliders]; stage "statistics". Makes the tension that steps
+/// of a method do not keep, and hands the number of iterations on where it is not fixed. The sums are trees in a
 /// fixed order without atomics, so they repeat bit for bit and equal the twin's (twin/statistics.h).
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
+
+/// Returns the bytes of each cloth's record, where the slot's last finished frame has left them.
+std::vector<std::span<const std::byte>> statistics_records(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                                           std::uint32_t slot);
+/// Returns each cloth's statistics of the slot's last finished frame, which is `frame`.
+std::vector<ClothStatistics> read_statistics(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                             std::uint32_t slot, std::uint32_t frame, const SimulationModel& run);
 
 }  // namespace drape

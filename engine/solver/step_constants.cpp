@@ -28,17 +28,16 @@ std::uint32_t group_width(Place p) {
     return static_cast<std::uint32_t>(group_of_lines(p).x);
 }
 
-const MethodScheme& scheme_of(Place p) { return p.cloth->model->scheme; }
 bool has(Place p, Field field) { return (*p.cloth)[field].valid(); }
-bool second_order(Place p) { return scheme_of(p).second_order; }
-bool carries_tension(Place p) { return scheme_of(p).carries_tension[0]; }
+bool second_order(Place p) { return p.scheme().second_order; }
+bool carries_tension(Place p) { return p.scheme().carries_tension[0]; }
 /// Passes store to the state's images, or to the sheet's, through their buffer views.
 bool buffered(Place p) { return p.cloth ? p.cloth->buffered : p.contact->buffered; }
 bool stores_tension(Place p) {
     const auto& push = p.step.push<glsl::SpringPush>();
     const auto direction = static_cast<std::size_t>(push.channel);
     return has(p, tension_of(direction)) &&
-           (scheme_of(p).carries_tension[direction] || (p.step.last && push.compliance > 0));
+           (p.scheme().carries_tension[direction] || (p.step.last && push.compliance > 0));
 }
 /// All springs of an iteration: only the stretch springs' tension is stored, for the stretch error.
 bool stores_stretch_tension(Place p) {
@@ -65,7 +64,7 @@ constexpr ConstantRow constant_rows[] = {
     {"bends", [](Place p) { return p.step.push<glsl::LinePush>().bend > 0 ? 1u : 0u; }},
     {"buffered", [](Place p) { return buffered(p) ? 1u : 0u; }},
     {"carries_tension", [](Place p) { return carries_tension(p) ? 1u : 0u; }},
-    {"carries_to_release", [](Place p) { return scheme_of(p).release_stiffness.x > 0 ? 1u : 0u; }},
+    {"carries_to_release", [](Place p) { return p.scheme().release_stiffness.x > 0 ? 1u : 0u; }},
     {"cloth_count", [](Place p) { return static_cast<std::uint32_t>(p.model.cloths.size()); }},
     {"comes_home", [](Place p) { return p.cloth->away ? 1u : 0u; }},
     {"control_comes_home", [](Place p) { return second_order(p) && p.step.substep % 2 == 1 ? 1u : 0u; }},

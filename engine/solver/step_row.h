@@ -18,6 +18,7 @@ struct StepPlace {
     const ContactHandles* contact;  ///< null where the scene has no contact between cloths
     const SimulationModel& model;
     const Pipelines& device;
+    const MethodScheme& scheme() const { return cloth->model->scheme; }
 };
 
 /// A shader that does a step's work.

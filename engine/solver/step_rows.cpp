@@ -16,7 +16,6 @@ template <class Push>
 std::size_t channel_of(Place p) {
     return static_cast<std::size_t>(p.step.push<Push>().channel);
 }
-const MethodScheme& scheme_of(Place p) { return p.cloth->model->scheme; }
 
 std::string spring_label(Place p) {
     const auto& push = p.step.push<glsl::SpringPush>();
@@ -52,7 +51,7 @@ glsl::PinPush pins_of(Place p) {
 graph::PushConstants pin_push(Place p) { return pins_of(p); }
 graph::PushConstants release_push(Place p) {
     const glsl::PinPush pins = pins_of(p);
-    return glsl::ReleasePush{scheme_of(p).release_stiffness,
+    return glsl::ReleasePush{p.scheme().release_stiffness,
                              p.cloth->model->grid.size(),
                              pins.particle_count,
                              pins.motion_first,
@@ -203,8 +202,8 @@ std::vector<StepRow> all_rows() {
 }  // namespace
 
 std::string before_alias(const StepPlace& place, std::string_view name, bool) {
-    return name == "displacement_before" && scheme_of(place).spare_state ? variable_of(Field::displacement_spare)
-                                                                         : std::string();
+    return name == "displacement_before" && place.scheme().spare_state ? variable_of(Field::displacement_spare)
+                                                                       : std::string();
 }
 
 std::span<const StepRow> step_rows() {

@@ -19,8 +19,8 @@ constexpr VkMemoryPropertyFlags host_coherent =
 
 void require_possible(const Device& device, const BufferDescription& description) {
     if (description.byte_count == 0) refuse(description, "the size must be at least 1");
-    if (description.byte_count > device.max_buffer_size()) {
-        refuse(description, fmt::format("the device's limit is {} bytes", device.max_buffer_size()));
+    if (description.byte_count > device.capabilities().max_buffer_size) {
+        refuse(description, fmt::format("the device's limit is {} bytes", device.capabilities().max_buffer_size));
     }
     const std::uint64_t range = device.limits().maxStorageBufferRange;
     if ((description.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) && description.byte_count > range) {

@@ -112,23 +112,23 @@ void Device::read_limits() {
     properties11.pNext = &properties13;
     properties13.pNext = &push;
     vkGetPhysicalDeviceProperties2(physical_, &all);
-    properties_ = all.properties;
-    max_push_descriptors_ = push.maxPushDescriptors;
-    max_buffer_size_ = properties13.maxBufferSize;
-    max_allocation_size_ = properties11.maxMemoryAllocationSize;
+    capabilities_.limits = all.properties.limits;
+    capabilities_.max_push_descriptors = push.maxPushDescriptors;
+    capabilities_.max_buffer_size = properties13.maxBufferSize;
+    capabilities_.max_allocation_size = properties11.maxMemoryAllocationSize;
     const bool shuffles = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
                           (properties11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
-    subgroup_ = properties11.subgroupSize;
-    shuffling_lanes_ = shuffles ? properties11.subgroupSize : 0;
+    capabilities_.subgroup = properties11.subgroupSize;
+    capabilities_.shuffling_lanes = shuffles ? properties11.subgroupSize : 0;
 
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    budget_ = MemoryBudget(memory_budget_limit(memory_, properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
+    budget_ = MemoryBudget(memory_budget_limit(memory_, all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
 
     queue_family_ = find_queue_family(physical_).value();  // a usable device has one
     std::uint32_t count = queue_family_ + 1;
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-    timestamp_valid_bits_ = families[queue_family_].timestampValidBits;
+    capabilities_.timestamp_valid_bits = families[queue_family_].timestampValidBits;
 }
 
 void Device::read_features(const OptionalFeatures& asked) {
@@ -140,28 +140,30 @@ void Device::read_features(const OptionalFeatures& asked) {
     auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     all.pNext = &features12;
     vkGetPhysicalDeviceFeatures2(physical_, &all);
-    full_subgroups_ = features13.computeFullSubgroups == VK_TRUE;
-    wide_integers_ = all.features.shaderInt64 == VK_TRUE;
-    wide_atomics_ = asked.wide_atomics && wide_integers_ && features12.shaderBufferInt64Atomics == VK_TRUE;
-    samples_in_shaders_ = asked.samples_in_shaders && all.features.shaderStorageImageMultisample == VK_TRUE &&
-                          (limits().storageImageSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
+    capabilities_.full_subgroups = features13.computeFullSubgroups == VK_TRUE;
+    capabilities_.wide_integers = all.features.shaderInt64 == VK_TRUE;
+    capabilities_.wide_atomics =
+        asked.wide_atomics && capabilities_.wide_integers && features12.shaderBufferInt64Atomics == VK_TRUE;
+    capabilities_.samples_in_shaders = asked.samples_in_shaders &&
+                                       all.features.shaderStorageImageMultisample == VK_TRUE &&
+                                       (limits().storageImageSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
 }
 
 void Device::create() {
     auto features12 =
         structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-    features12.shaderBufferInt64Atomics = wide_atomics_ ? VK_TRUE : VK_FALSE;
+    features12.shaderBufferInt64Atomics = capabilities_.wide_atomics ? VK_TRUE : VK_FALSE;
     auto features13 =
         structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
-    features13.computeFullSubgroups = full_subgroups_ ? VK_TRUE : VK_FALSE;
+    features13.computeFullSubgroups = capabilities_.full_subgroups ? VK_TRUE : VK_FALSE;
     features13.pNext = &features12;
     VkPhysicalDeviceFeatures features{};
     features.shaderClipDistance = VK_TRUE;
-    features.shaderInt64 = wide_integers_ ? VK_TRUE : VK_FALSE;
-    features.shaderStorageImageMultisample = samples_in_shaders_ ? VK_TRUE : VK_FALSE;
+    features.shaderInt64 = capabilities_.wide_integers ? VK_TRUE : VK_FALSE;
+    features.shaderStorageImageMultisample = capabilities_.samples_in_shaders ? VK_TRUE : VK_FALSE;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;
@@ -183,7 +185,7 @@ void Device::create() {
 Device::~Device() {
     if (!handle_) return;
     let_finish(handle_);
-    pipelines_.clear();
+    pipelines_.made.clear();
     vkDestroyCommandPool(handle_, once_pool_, nullptr);
     vkDestroyDevice(handle_, nullptr);
 }
@@ -193,8 +195,8 @@ const ComputePipeline& Device::compute_pipeline(const std::string& module,
     std::string key = module;
     for (const SpecializationConstant& constant : constants)
         key += fmt::format(" {}={}", constant.name, constant.value);
-    const std::scoped_lock lock(pipelines_mutex_);
-    std::unique_ptr<ComputePipeline>& pipeline = pipelines_[key];
+    const std::scoped_lock lock(pipelines_.guard);
+    std::unique_ptr<ComputePipeline>& pipeline = pipelines_.made[key];
     if (!pipeline) pipeline = std::make_unique<ComputePipeline>(*this, key, Shader{module}, constants);
     return *pipeline;
 }
@@ -213,9 +215,9 @@ std::uint32_t Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags
 
 VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
                                 VkMemoryPropertyFlags preferred, std::string_view object) const {
-    if (requirements.size > max_allocation_size_) {
+    if (requirements.size > capabilities_.max_allocation_size) {
         throw VulkanError(fmt::format("{} needs {} bytes of memory, one allocation may have {}", object,
-                                      requirements.size, max_allocation_size_));
+                                      requirements.size, capabilities_.max_allocation_size));
     }
     auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = requirements.size;

@@ -40,6 +40,22 @@ struct OptionalFeatures {
     bool samples_in_shaders = true;
 };
 
+/// What a device has, and offers beyond what every device must (device_requirements.h).
+struct DeviceCapabilities {
+    VkPhysicalDeviceLimits limits{};
+    std::uint32_t timestamp_valid_bits = 0;
+    bool wide_integers = false;         ///< shaders have integers of 64 bits
+    bool wide_atomics = false;          ///< they may add such integers in buffers atomically
+    bool samples_in_shaders = false;    ///< they may load each of four samples of storage images
+    bool full_subgroups = false;        ///< compute shaders can be promised that all of theirs are full
+    std::uint32_t subgroup = 0;         ///< invocations in one
+    std::uint32_t shuffling_lanes = 0;  ///< of a subgroup of compute shaders; 0 where they cannot shuffle
+    bool shuffles(std::uint32_t lanes) const { return shuffling_lanes == lanes; }
+    std::uint32_t max_push_descriptors = 0;
+    std::uint64_t max_buffer_size = 0;
+    std::uint64_t max_allocation_size = 0;
+};
+
 class ComputePipeline;
 struct SpecializationConstant;
 
@@ -60,23 +76,8 @@ class Device {
     VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
-    const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
-    std::uint32_t timestamp_valid_bits() const { return timestamp_valid_bits_; }
-    /// Returns whether shaders have integers of 64 bits.
-    bool wide_integers() const { return wide_integers_; }
-    /// Returns whether they may add such integers in buffers atomically.
-    bool wide_atomics() const { return wide_atomics_; }
-    /// Returns whether shaders may load each of four samples of storage images.
-    bool samples_in_shaders() const { return samples_in_shaders_; }
-    /// Returns whether subgroups of compute shaders have so many invocations and can shuffle.
-    bool shuffles(std::uint32_t lanes) const { return shuffling_lanes_ == lanes; }
-    /// Returns how many invocations a subgroup has.
-    std::uint32_t subgroup() const { return subgroup_; }
-    /// Returns whether compute shaders can be promised that all of theirs are full.
-    bool full_subgroups() const { return full_subgroups_; }
-    std::uint32_t max_push_descriptors() const { return max_push_descriptors_; }
-    std::uint64_t max_buffer_size() const { return max_buffer_size_; }
-    std::uint64_t max_allocation_size() const { return max_allocation_size_; }
+    const VkPhysicalDeviceLimits& limits() const { return capabilities_.limits; }
+    const DeviceCapabilities& capabilities() const { return capabilities_; }
     MemoryBudget& budget() const { return budget_; }
 
     /// Returns the first memory type of `type_bits` with all of `required`, preferring `preferred`.
@@ -104,6 +105,10 @@ class Device {
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
   private:
+    struct Pipelines {
+        std::mutex guard;
+        std::map<std::string, std::unique_ptr<ComputePipeline>> made;  ///< by module and constants
+    };
     struct Empty {};
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Device(const Instance& instance, DeviceInfo info, Empty);
@@ -114,26 +119,15 @@ class Device {
     const Instance& instance_;
     DeviceInfo info_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
-    VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};
     VkDevice handle_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VkCommandPool once_pool_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
-    std::uint32_t timestamp_valid_bits_ = 0;
-    std::uint32_t max_push_descriptors_ = 0;
-    bool wide_integers_ = false;
-    bool wide_atomics_ = false;
-    bool samples_in_shaders_ = false;
-    bool full_subgroups_ = false;
-    std::uint32_t subgroup_ = 0;
-    std::uint32_t shuffling_lanes_ = 0;  ///< lanes of a subgroup; 0 where they cannot shuffle
-    std::uint64_t max_buffer_size_ = 0;
-    std::uint64_t max_allocation_size_ = 0;
+    DeviceCapabilities capabilities_;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
     mutable MemoryBudget budget_{0};
-    mutable std::mutex pipelines_mutex_;
-    mutable std::map<std::string, std::unique_ptr<ComputePipeline>> pipelines_;  ///< by module and constants
+    mutable Pipelines pipelines_;
 };
 
 }  // namespace drape::vulkan

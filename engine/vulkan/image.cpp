@@ -141,7 +141,7 @@ void Image::make_buffer(VkMemoryRequirements& requirements) {
     row_pitch_ = static_cast<std::uint32_t>(layout.rowPitch / texel);
     const std::uint64_t bytes = layout.rowPitch * description_.height;
     const std::uint64_t limit =
-        std::min<std::uint64_t>(device_->limits().maxStorageBufferRange, device_->max_buffer_size());
+        std::min<std::uint64_t>(device_->limits().maxStorageBufferRange, device_->capabilities().max_buffer_size);
     if (bytes > limit)
         refuse(description_, fmt::format("a buffer view of {} bytes, the device's limit is {}", bytes, limit));
     auto info = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);

@@ -90,9 +90,9 @@ void Pipeline::merge(const ShaderStage& stage) {
 
 void Pipeline::make_layout_handles() {
     const std::uint32_t push_constant_size = push_constants_ ? push_constants_->size : 0;
-    if (descriptors_.size() > device_.max_push_descriptors()) {
+    if (descriptors_.size() > device_.capabilities().max_push_descriptors) {
         throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_,
-                                      descriptors_.size(), device_.max_push_descriptors()));
+                                      descriptors_.size(), device_.capabilities().max_push_descriptors));
     }
     if (push_constant_size > device_.limits().maxPushConstantsSize) {
         throw VulkanError(fmt::format("pipeline {} has {} bytes of push constants, the device's limit is {}", name_,

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace drape::vulkan {
 
@@ -107,14 +108,21 @@ std::optional<std::uint32_t> evaluated(SpvOp op, std::uint32_t a, std::uint32_t 
     }
 }
 
+/// What is known of an id.
+struct About {
+    std::optional<std::uint32_t> value{};  ///< of 32 bits, or of truth
+    Words parts{};                         ///< of a composite constant
+    bool is_defined = false;               ///< in what was written
+    bool is_variable_in_use = false;
+    bool is_type_in_use = false;
+};
+
 class Specialiser {
   public:
     Specialiser(Words words, const ConstantValues& values) : header_(words.first(header_size)), values_(values) {
         for (Words rest = words.subspan(header_size); !rest.empty(); rest = rest.subspan(rest[0] >> SpvWordCountShift))
             all_.push_back({rest.first(rest[0] >> SpvWordCountShift)});
-        known_.resize(words[3]);
-        defined_.resize(words[3]);
-        used_.resize(words[3]);
+        ids_.resize(words[3]);
         const auto first = std::ranges::find(all_, SpvOpFunction, &Instruction::op);
         globals_ = std::span(all_).first(static_cast<std::size_t>(first - all_.begin()));
         find_functions(std::span(all_).subspan(globals_.size()));
@@ -126,7 +134,7 @@ class Specialiser {
         std::vector<std::uint32_t> bodies;
         for (auto& [id, function] : functions_)
             if (function.is_called) emit(function, bodies);
-        find_wide_types();
+        find_optional_types();
         std::vector<std::uint32_t> declarations, head(header_.begin(), header_.end());
         for (const Instruction& each : globals_)
             if (!is_about_module(each)) emit_declaration(each, declarations);
@@ -163,29 +171,29 @@ class Specialiser {
             if (each.op() == SpvOpEntryPoint) call(words[2]);
             if (each.op() == SpvOpDecorate && words[2] == SpvDecorationSpecId) numbers[words[1]] = words[3];
             if (each.op() == SpvOpTypeBool) bool_ = words[1];
-            if (each.op() == SpvOpConstantTrue || each.op() == SpvOpSpecConstantTrue) known_[words[2]] = 1;
-            if (each.op() == SpvOpConstantFalse || each.op() == SpvOpSpecConstantFalse) known_[words[2]] = 0;
+            if (each.op() == SpvOpConstantTrue || each.op() == SpvOpSpecConstantTrue) ids_[words[2]].value = 1;
+            if (each.op() == SpvOpConstantFalse || each.op() == SpvOpSpecConstantFalse) ids_[words[2]].value = 0;
             if ((each.op() == SpvOpConstant || each.op() == SpvOpSpecConstant) && words.size() == 4)
-                known_[words[2]] = words[3];
+                ids_[words[2]].value = words[3];
             if (const auto number = numbers.find(each.result()); number != numbers.end())
                 if (const auto value = values_.find(number->second); value != values_.end())
-                    known_[each.result()] = value->second;
+                    ids_[each.result()].value = value->second;
             if (each.op() == SpvOpConstantComposite || each.op() == SpvOpSpecConstantComposite)
-                composites_[words[2]] = words.subspan(3);
+                ids_[words[2]].parts = words.subspan(3);
             if (each.op() == SpvOpSpecConstantOp)
-                known_[words[2]] = value_of(static_cast<SpvOp>(words[3]), words.subspan(4));
+                ids_[words[2]].value = value_of(static_cast<SpvOp>(words[3]), words.subspan(4));
         }
     }
 
     std::optional<std::uint32_t> value_of(SpvOp op, Words operands) const {
         if (op == SpvOpCompositeExtract) {
-            const auto composite = composites_.find(operands[0]);
-            return composite != composites_.end() && operands.size() == 2 ? known_[composite->second[operands[1]]]
-                                                                          : std::nullopt;
+            const Words parts = ids_[operands[0]].parts;
+            return !parts.empty() && operands.size() == 2 ? ids_[parts[operands[1]]].value : std::nullopt;
         }
         if (op == SpvOpSelect)
-            return known_[operands[0]] ? known_[operands[*known_[operands[0]] ? 1 : 2]] : std::nullopt;
-        const std::optional<std::uint32_t> a = known_[operands[0]], b = operands.size() > 1 ? known_[operands[1]] : a;
+            return ids_[operands[0]].value ? ids_[operands[*ids_[operands[0]].value ? 1 : 2]].value : std::nullopt;
+        const std::optional<std::uint32_t> a = ids_[operands[0]].value,
+                                           b = operands.size() > 1 ? ids_[operands[1]].value : a;
         // One operand may be enough.
         if (op == SpvOpLogicalAnd && (a == 0u || b == 0u)) return 0;
         if (op == SpvOpLogicalOr && (a == 1u || b == 1u)) return 1;
@@ -207,8 +215,8 @@ class Specialiser {
     /// loop's header has to, or the loop would be none.
     bool is_decided(const Block& from) const {
         const Words words = from.end().words;
-        if (from.end().op() != SpvOpBranchConditional || !known_[words[1]]) return false;
-        const auto& [function, other] = block_of_.at(words[*known_[words[1]] ? 3 : 2]);
+        if (from.end().op() != SpvOpBranchConditional || !ids_[words[1]].value) return false;
+        const auto& [function, other] = block_of_.at(words[*ids_[words[1]].value ? 3 : 2]);
         const Instruction* merge = function->blocks[other].merge();
         return !merge || merge->op() != SpvOpLoopMerge || other > block_of_.at(from.label()).second;
     }
@@ -220,7 +228,7 @@ class Specialiser {
             case SpvOpBranch:
                 return {words[1]};
             case SpvOpBranchConditional:
-                if (is_decided(from)) return {words[*known_[words[1]] ? 2 : 3]};
+                if (is_decided(from)) return {words[*ids_[words[1]].value ? 2 : 3]};
                 return {words[2], words[3]};
             case SpvOpSwitch: {
                 std::vector<Id> all;  // the selector has 32 bits
@@ -241,7 +249,7 @@ class Specialiser {
             next.is_live = true;
             for (const Instruction& each : next.instructions) {
                 if (each.op() == SpvOpFunctionCall) call(each.words[3]);
-                if (evaluates(each)) known_[each.result()] = value_of(each.op(), each.words.subspan(3));
+                if (evaluates(each)) ids_[each.result()].value = value_of(each.op(), each.words.subspan(3));
             }
             for (const Id each : successors(next)) pending.push_back(each);
         }
@@ -271,8 +279,8 @@ class Specialiser {
     }
 
     void copy(const Instruction& each, std::vector<std::uint32_t>& to) {
-        if (each.result() != 0) defined_[each.result()] = true;
-        if (each.type() != 0) used_types_.push_back(each.type());
+        if (each.result() != 0) ids_[each.result()].is_defined = true;
+        if (each.type() != 0) ids_[each.type()].is_type_in_use = true;
         to.insert(to.end(), each.words.begin(), each.words.end());
     }
 
@@ -307,14 +315,14 @@ class Specialiser {
             for (std::size_t k = 3; phi.op() == SpvOpPhi && k < phi.words.size(); k += 2)
                 if (comes_from_dead(from.continues, phi.words[k + 1]) && is_in_function(phi.words[k])) {
                     add(to, SpvOpUndef, {phi.type(), phi.words[k]});
-                    defined_[phi.words[k]] = true;
+                    ids_[phi.words[k]].is_defined = true;
                 }
         add(to, SpvOpBranch, {from.continues});
     }
 
     /// Returns whether an id is of a function, and not yet written.
     bool is_in_function(Id id) const {
-        return !defined_[id] && std::ranges::find(globals_, id, &Instruction::result) == globals_.end();
+        return !ids_[id].is_defined && std::ranges::find(globals_, id, &Instruction::result) == globals_.end();
     }
 
     bool comes_from_dead(Id to, Id from) {
@@ -325,8 +333,8 @@ class Specialiser {
     void emit_phi(const Block& at, const Instruction& phi, std::vector<std::uint32_t>& to) {
         const std::size_t first = to.size();
         add(to, SpvOpPhi, {phi.words[1], phi.words[2]});
-        defined_[phi.result()] = true;
-        used_types_.push_back(phi.type());
+        ids_[phi.result()].is_defined = true;
+        ids_[phi.type()].is_type_in_use = true;
         const Instruction* merge = at.merge();
         const bool is_loop = merge && merge->op() == SpvOpLoopMerge;
         for (std::size_t k = 3; k < phi.words.size(); k += 2) {
@@ -340,7 +348,7 @@ class Specialiser {
     /// Marks the ids that an instruction may take as variables.
     void mark_variables(const Instruction& each) {
         const Words words = each.words;
-        const auto use = [&](std::size_t k) { used_[words[k]] = true; };
+        const auto use = [&](std::size_t k) { ids_[words[k]].is_variable_in_use = true; };
         const SpvOp op = each.op();
         const bool is_atomic = op >= SpvOpAtomicLoad && op <= SpvOpAtomicXor;
         if (op == SpvOpStore || op == SpvOpCopyMemory || op == SpvOpAtomicStore) use(1);
@@ -376,36 +384,37 @@ class Specialiser {
 
     /// Outputs stay, and so do push constants, which must be as C++ has them.
     bool is_left_out(const Instruction& variable) const {
-        return variable.op() == SpvOpVariable && !used_[variable.result()] &&
+        return variable.op() == SpvOpVariable && !ids_[variable.result()].is_variable_in_use &&
                variable.words[3] != SpvStorageClassOutput && variable.words[3] != SpvStorageClassPushConstant;
     }
 
-    /// Finds the types with integers of 64 bits if none of them is used any more: not every device has those.
-    void find_wide_types() {
-        for (const Instruction& each : globals_) {
-            const Words words = each.words;
-            const auto holds_wide = [&](std::size_t first, std::size_t end) {
-                return std::any_of(words.begin() + static_cast<std::ptrdiff_t>(first),
-                                   words.begin() + static_cast<std::ptrdiff_t>(end),
-                                   [&](Id id) { return wide_types_.contains(id); });
-            };
-            const SpvOp op = each.op();
-            if (op == SpvOpTypeInt && words[2] == 64) wide_types_[words[1]] = true;
-            if ((op == SpvOpTypeVector || op == SpvOpTypeArray || op == SpvOpTypeRuntimeArray) && holds_wide(2, 3))
-                wide_types_[words[1]] = true;
-            if (op == SpvOpTypePointer && holds_wide(3, 4)) wide_types_[words[1]] = true;
-            if ((op == SpvOpTypeStruct || op == SpvOpTypeFunction) && holds_wide(2, words.size()))
-                wide_types_[words[1]] = true;
+    /// Finds the types that not every device has, and whether any of them is still used.
+    void find_optional_types() {
+        for (OptionalTypes* const group : {&wide_, &multisampled_}) {
+            const auto is_in_group = [&](Id id) { return group->types.contains(id); };
+            for (const Instruction& each : globals_) {
+                const Words words = each.words;
+                const SpvOp op = each.op();
+                const bool is_list = op == SpvOpTypeVector || op == SpvOpTypeArray || op == SpvOpTypeRuntimeArray;
+                if ((group == &wide_ ? op == SpvOpTypeInt && words[2] == 64
+                                     : op == SpvOpTypeImage && words[6] == 1 && words[7] == 2) ||
+                    (is_list && is_in_group(words[2])) || (op == SpvOpTypePointer && is_in_group(words[3])) ||
+                    ((op == SpvOpTypeStruct || op == SpvOpTypeFunction) &&
+                     std::ranges::any_of(words.subspan(2), is_in_group)))
+                    group->types.insert(words[1]);
+            }
+            group->needed = std::ranges::any_of(group->types, [&](Id type) { return bool{ids_[type].is_type_in_use}; });
         }
-        needs_wide_ = std::ranges::any_of(used_types_, [&](Id type) { return wide_types_.contains(type); });
     }
 
     void emit_declaration(const Instruction& each, std::vector<std::uint32_t>& to) {
-        const bool is_wide = wide_types_.contains(each.type()) || wide_types_.contains(each.result());
-        if (is_left_out(each) || (is_wide && !needs_wide_)) return;
-        const std::optional<std::uint32_t> value = each.result() != 0 ? known_[each.result()] : std::nullopt;
+        const auto is_needless = [&](const OptionalTypes& group) {
+            return !group.needed && (group.types.contains(each.type()) || group.types.contains(each.result()));
+        };
+        if (is_left_out(each) || is_needless(wide_) || is_needless(multisampled_)) return;
+        const std::optional<std::uint32_t> value = each.result() != 0 ? ids_[each.result()].value : std::nullopt;
         if (value) {
-            defined_[each.result()] = true;
+            ids_[each.result()].is_defined = true;
             if (each.type() == bool_)
                 add(to, *value ? SpvOpConstantTrue : SpvOpConstantFalse, {each.type(), each.result()});
             else
@@ -414,7 +423,7 @@ class Specialiser {
         }
         const std::size_t first = to.size();
         copy(each, to);
-        const auto is_known = [&](Id id) { return known_[id].has_value(); };
+        const auto is_known = [&](Id id) { return ids_[id].value.has_value(); };
         if (each.op() == SpvOpSpecConstantComposite && std::ranges::all_of(each.words.subspan(3), is_known))
             to[first] = (to[first] & ~std::uint32_t{SpvOpCodeMask}) | SpvOpConstantComposite;
     }
@@ -423,15 +432,15 @@ class Specialiser {
         const Words words = each.words;
         switch (each.op()) {
             case SpvOpCapability:
-                if (needs_wide_ || (words[1] != SpvCapabilityInt64 && words[1] != SpvCapabilityInt64Atomics))
-                    copy(each, to);
+                if (!wide_.needed && (words[1] == SpvCapabilityInt64 || words[1] == SpvCapabilityInt64Atomics)) return;
+                if (multisampled_.needed || words[1] != SpvCapabilityStorageImageMultisample) copy(each, to);
                 return;
             case SpvOpEntryPoint: {
                 const char* name = reinterpret_cast<const char*>(&words[3]);
                 const std::size_t first = to.size(), interface = 3 + std::strlen(name) / sizeof(std::uint32_t) + 1;
                 to.insert(to.end(), words.begin(), words.begin() + static_cast<std::ptrdiff_t>(interface));
                 std::ranges::copy_if(words.subspan(interface), std::back_inserter(to),
-                                     [&](Id variable) { return bool{defined_[variable]}; });
+                                     [&](Id variable) { return ids_[variable].is_defined; });
                 to[first] = static_cast<std::uint32_t>(to.size() - first) << SpvWordCountShift | SpvOpEntryPoint;
                 return;
             }
@@ -439,7 +448,7 @@ class Specialiser {
             case SpvOpMemberName:
             case SpvOpDecorate:
             case SpvOpMemberDecorate:
-                if (defined_[words[1]] && !(each.op() == SpvOpDecorate && words[2] == SpvDecorationSpecId))
+                if (ids_[words[1]].is_defined && !(each.op() == SpvOpDecorate && words[2] == SpvDecorationSpecId))
                     copy(each, to);
                 return;
             default:
@@ -455,12 +464,12 @@ class Specialiser {
     std::map<Id, std::pair<Function*, std::size_t>> block_of_;
     std::vector<Id> called_;
     Id bool_ = 0;
-    std::vector<std::optional<std::uint32_t>> known_;  ///< by id: values of 32 bits, and of truth
-    std::map<Id, Words> composites_;
-    std::vector<bool> defined_, used_;  ///< by id
-    std::vector<Id> used_types_;
-    std::map<Id, bool> wide_types_;
-    bool needs_wide_ = false;
+    std::vector<About> ids_;  ///< by id
+    /// Types that only a capability allows, which a device may lack where no code is left that needs them.
+    struct OptionalTypes {
+        std::set<Id> types = {};
+        bool needed = false;
+    } wide_, multisampled_;  ///< of 64-bit integers, of storage images with samples
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ std::map<std::size_t, double> drawn_areas(const CutTopology& topology) {
         const glsl::vec4& material = topology.vertices()[index - count].material;
         return std::array{double(material.x), double(material.y)};
     };
-    const std::vector<std::size_t> piece = topology.pieces();
+    const std::vector<std::size_t> piece = pieces_of(topology);
     const std::vector<std::uint32_t>& drawn = topology.indices();
     std::map<std::size_t, double> areas;
     for (std::size_t k = 0; k < drawn.size(); k += 3) {

@@ -107,7 +107,7 @@ TEST_P(Conformance, EveryStep) {
     const auto& [scene, kernel] = GetParam();
     const vulkan::Device& device = test::gpu().device;
     Kernels kernels{kernel.kernel};
-    kernels.group.subgroup = device.subgroup();
+    kernels.group.subgroup = device.capabilities().subgroup;
     test::TwinWithCuts twin(scene->scene, kernels);
     Judge judge(twin.model(), device_kind(device.info()) == DeviceKind::cpu);
     for (std::uint32_t frame = 0; frame <= scene->lead; ++frame) twin.run_frame(frame);

@@ -148,7 +148,7 @@ void ContactMirror::upload_touching(const TwinContact& twin) const {
 }
 
 void ContactMirror::upload_sums(const TwinContact& twin) const {
-    const bool wide = device_.wide_atomics();
+    const bool wide = device_.capabilities().wide_atomics;
     std::vector<glsl::SelfSum> all(contact_.place_count() * glsl::self_sum_count);
     for (std::size_t which = 0; which < glsl::self_sum_count; ++which)
         for (std::size_t place = 0; place < contact_.place_count(); ++place) {
@@ -300,7 +300,7 @@ void ContactMirror::add_touching(const TwinContact& twin, std::vector<FieldPair>
 }
 
 void ContactMirror::add_sums(const Step& step, const TwinContact& twin, std::vector<FieldPair>& fields) const {
-    const bool wide = device_.wide_atomics();
+    const bool wide = device_.capabilities().wide_atomics;
     const auto all = list<glsl::SelfSum>(ContactField::sums);
     FieldPair units{.name = "contact sums",
                     .least_scale = edge_ * glsl::self_units_per_impulse(contact_.push.thickness)};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "solver/host_inputs.h"
+#include "solver/state_transfer.h"
 #include "twin/kernels.h"
 #include "twin_steps.h"
 
@@ -141,7 +143,7 @@ glsl::ResidualRecord sum_of(const std::vector<glsl::ResidualRecord>& records) {
 SingleSteps::SingleSteps(const vulkan::Device& device, const SimulationModel& model, const Kernels& kernels, Twin& twin)
     : device_(device), model_(model), twin_(twin), solver_(device, model, kernels), slots_(device) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
-        solver_.topologies()[cloth] = twin.topology(cloth);
+        solver_.layout().topologies[cloth] = twin.topology(cloth);
     find_singles();
     std::vector<std::pair<const graph::Graph*, const graph::Plan*>> plans;
     for (const auto& single : singles_)
@@ -151,7 +153,7 @@ SingleSteps::SingleSteps(const vulkan::Device& device, const SimulationModel& mo
         if (single->runs())
             single->recorded =
                 std::make_unique<graph::RecordedPlan>(single->graph, single->plan, *pool_, graph::TimestampMode::none);
-    solver_.upload(*pool_);
+    upload_start(solver_.layout(), *pool_);
     if (model.self_contact) contact_ = std::make_unique<ContactMirror>(device, *model.self_contact, *pool_);
 }
 
@@ -159,7 +161,7 @@ void SingleSteps::find_singles() {
     const std::vector<Step> steps = solver_.steps();
     all_kernels_ = std::ranges::all_of(steps, [](const Step& step) { return step.kernel == Kernel::plain; });
     std::vector<DeviceStep> device;
-    for (const Step& step : steps) device.push_back({step, solver_.cloths_of(step)});
+    for (const Step& step : steps) device.push_back({step, solver_.layout().cloths_of(step)});
     const std::vector<std::vector<Step>> twin = twin_steps(twin_.steps(), device, model_.cloths.size());
     for (std::size_t k = 0; k < device.size(); ++k) {
         const auto& [step, cloths] = device[k];
@@ -282,7 +284,7 @@ void SingleSteps::add_decision(const Single& single, std::size_t cloth, std::vec
 }
 
 void SingleSteps::run_frame(std::uint32_t frame, const Visit& visit) {
-    solver_.write_inputs(*pool_, 0, frame);
+    write_inputs(solver_.layout(), *pool_, 0, frame, model_);
     const FrameInputs inputs = frame_inputs(model_, frame);
     for (const auto& single : singles_) {
         if (single->runs()) run(*single);

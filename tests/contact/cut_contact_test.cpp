@@ -63,7 +63,7 @@ CutRun run_of(const SceneDescription& scene) {
         run.split += event.counts.triangles;
     };
     FrameServer server(gpu().device, model, options, listener);
-    const std::vector<CutTopology>& topologies = server.graphs().solver().topologies();
+    const std::vector<CutTopology>& topologies = server.graphs().layout().topologies;
     const std::size_t before = topologies[0].whole_triangles().size() / 3;
     server.run(
         scene.time.frame_count - 1, [](std::uint32_t) { return true; },

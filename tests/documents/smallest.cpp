@@ -4,6 +4,9 @@
 #include "cloth/simulation_model.h"
 #include "graph/executor.h"
 #include "solver/cloth_solver.h"
+#include "solver/host_inputs.h"
+#include "solver/readback_pass.h"
+#include "solver/state_transfer.h"
 #include "vulkan/instance.h"
 
 int main() try {
@@ -34,15 +37,15 @@ int main() try {
     // The memory that the plan needs, the start of the cloth in it, and the commands, recorded once.
     const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph, &plan}};
     const graph::ResourcePool pool(device, plans);
-    solver.upload(pool);
+    upload_start(solver.layout(), pool);
     const graph::RecordedPlan recorded(graph, plan, pool, graph::TimestampMode::none);
     vulkan::FrameSlots slots(device);
 
     // Frame 1 in slot 0: the host writes its inputs, the device works, the host reads x y z w of each particle.
-    solver.write_inputs(pool, 0, 1);
+    write_inputs(solver.layout(), pool, 0, 1, model);
     slots.submit(0, recorded.commands(0));
     slots.wait(0);
-    const std::span<const float> positions = solver.readback(pool, 0, "positions")[0];
+    const std::span<const float> positions = read_back(solver.layout(), pool, 0, "positions")[0];
     const float* last = &positions[4 * 288];
     std::printf("%zu passes; the free edge fell by %.2f mm\n", plan.passes.size(), 1000 * (1 - last[1]));
 } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 #include "drape/scene_reader.h"
 #include "simulation/frame_server.h"
 #include "small_scene.h"
+#include "solver/contact_readback.h"
 #include "support/twin_fields.h"
 #include "support/twin_with_cuts.h"
 #include "twin/twin.h"
@@ -62,7 +63,8 @@ bool goes_on(const SimulationModel& model, const Twin& twin, const test::DeviceR
             twin_finite = twin_finite && is_finite(twin.cloth(cloth).bytes(field));
             device_finite = device_finite && is_finite(device.bytes(cloth, field));
         }
-    if (device.solver().self_list_use(device.solver().self_record(device.pool(), 0)) > 1) return false;
+    if (self_list_use(device.solver().layout(), self_record(device.solver().layout(), device.pool(), 0)) > 1)
+        return false;
     require(twin_finite == device_finite, "finite on the twin or on the device alone");
     return twin_finite;
 }

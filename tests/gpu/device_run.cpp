@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "solver/host_inputs.h"
 #include "solver/kernel_choice.h"
+#include "solver/state_transfer.h"
 #include "vulkan/api.h"
 #include "vulkan/error.h"
 
@@ -46,11 +48,11 @@ DeviceRun::DeviceRun(const vulkan::Device& device, const SimulationModel& model,
     const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
     pool_ = std::make_unique<graph::ResourcePool>(device, plans);
     recorded_ = std::make_unique<graph::RecordedPlan>(graph_, plan_, *pool_, graph::TimestampMode::none, keep);
-    solver_.upload(*pool_);
+    upload_start(solver_.layout(), *pool_);
 }
 
 void DeviceRun::run_frame(std::uint32_t frame) {
-    solver_.write_inputs(*pool_, 0, frame);
+    write_inputs(solver_.layout(), *pool_, 0, frame, model_);
     slots_.submit(0, recorded_->commands(0));
     slots_.wait(0);
     state_.clear();
@@ -63,7 +65,7 @@ std::vector<std::byte> DeviceRun::bytes(std::size_t cloth, Field field) const {
         return {host.begin(), host.end()};
     }
     if (row_of(field).life == FieldLife::state) {
-        if (state_.empty()) state_ = solver_.download_state(*pool_);
+        if (state_.empty()) state_ = download_state(solver_.layout(), *pool_);
         return state_.at(resource_name(model, row_of(field)));
     }
     const vulkan::Image& image = pool_->image(resource_name(model, row_of(field)));

@@ -13,7 +13,7 @@ TEST_F(Raster, ResolvedSamplesMakeTheSamePicture) {
     const std::vector<DrawnCloth> cloths{flat_cloth({0, 0.8, 0}, {1, 0.2, 0}, {0, 0.1, -1}, {0, 1, 0}, red, blue, 9)};
     const vulkan::Device resolving(test::gpu().instance, test::gpu().device.info().uuid_text(),
                                    {.samples_in_shaders = false});
-    EXPECT_FALSE(resolving.samples_in_shaders());
+    EXPECT_FALSE(resolving.capabilities().samples_in_shaders);
     Shot shot{.samples = 4, .options = {.shadow = true}};
     const Picture loaded = draw(scene, cloths, shot);
     shot.device = &resolving;

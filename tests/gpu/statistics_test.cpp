@@ -16,6 +16,8 @@
 #include "run/run_statistics.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_server.h"
+#include "solver/host_inputs.h"
+#include "solver/state_transfer.h"
 #include "solver/statistics_pass.h"
 #include "support/every_kind.h"
 #include "support/meshes.h"
@@ -37,23 +39,20 @@ class StatisticsRun {
         const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
         pool_ = std::make_unique<graph::ResourcePool>(test::gpu().device, plans);
         recorded_ = std::make_unique<graph::RecordedPlan>(graph_, plan_, *pool_, graph::TimestampMode::none);
-        solver_.upload(*pool_);
+        upload_start(solver_.layout(), *pool_);
     }
 
     /// Returns the record of cloth 0.
     glsl::StatisticsRecord record(const TwinCloth& state, std::uint32_t frame) {
         const std::string name = model_.cloths[0].name;
-        vulkan::upload(test::gpu().device, pool_->image(name + "/position"),
-                       std::as_bytes(std::span(state[Field::position])));
-        vulkan::upload(test::gpu().device, pool_->image(name + "/displacement"),
-                       std::as_bytes(std::span(state[Field::displacement])));
-        vulkan::upload(test::gpu().device, pool_->image(name + "/end excess"),
-                       std::as_bytes(std::span(state[Field::end_excess])));
+        for (const Field field : {Field::position, Field::displacement, Field::end_excess})
+            vulkan::upload(test::gpu().device, pool_->image(resource_name(model_.cloths[0], row_of(field))),
+                           std::as_bytes(std::span(state[field])));
         for (std::size_t direction = 0; direction < stretch_direction_count; ++direction)
             vulkan::upload(test::gpu().device,
                            pool_->image(name + "/tension " + std::string(spring_directions[direction].name)),
                            std::as_bytes(std::span(state.tension(direction))));
-        solver_.write_inputs(*pool_, 0, frame);
+        write_inputs(solver_.layout(), *pool_, 0, frame, model_);
         slots_.submit(0, recorded_->commands(0));
         slots_.wait(0);
         glsl::StatisticsRecord result;

@@ -22,7 +22,7 @@ TEST(TwinSelfContactTest, Line) { expect_contact(crumpling(17, SolverMethod::lin
 /// Sums are added up in integers of 64 bits, two at a time, where a device has them: with the same result.
 TEST(TwinSelfContactTest, WithoutWideAtomics) {
     const vulkan::Device narrow(test::gpu().instance, test::gpu().device.info().uuid_text(), {.wide_atomics = false});
-    EXPECT_FALSE(narrow.wide_atomics());
+    EXPECT_FALSE(narrow.capabilities().wide_atomics);
     const glsl::SelfRecord last = compare(crumpling(15, SolverMethod::line, 16), {}, narrow);
     EXPECT_GT(last.most_pairs, 20u) << "nothing met";
 }

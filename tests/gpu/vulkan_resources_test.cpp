@@ -214,11 +214,11 @@ TEST(VulkanBuffer, beyond_limits_or_budget_is_refused) {
     const std::uint64_t range = gpu().device.limits().maxStorageBufferRange;
     EXPECT_THAT(make(0, copied_buffer), HasSubstr("buffer pins (0 bytes): the size must be at least 1"));
     EXPECT_THAT(make(UINT64_MAX, copied_buffer), HasSubstr("buffer pins"));
-    if (range < gpu().device.max_buffer_size()) {
+    if (range < gpu().device.capabilities().max_buffer_size) {
         EXPECT_THAT(make(range + 1, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT), HasSubstr("limit for a storage buffer"));
     }
     const std::uint64_t texels = gpu().device.limits().maxTexelBufferElements;
-    if (16 * (texels + 1) <= gpu().device.max_buffer_size()) {
+    if (16 * (texels + 1) <= gpu().device.capabilities().max_buffer_size) {
         EXPECT_THAT(make(16 * (texels + 1), VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT),
                     HasSubstr("limit for a texel buffer"));
     }

@@ -17,7 +17,7 @@ namespace drape::test {
 inline double number(float x) { return static_cast<double>(x); }
 
 inline std::size_t piece_count(const CutTopology& topology) {
-    const std::vector<std::size_t> roots = topology.pieces();
+    const std::vector<std::size_t> roots = pieces_of(topology);
     return std::set<std::size_t>(roots.begin(), roots.end()).size();
 }
 
@@ -50,7 +50,7 @@ inline Vec3 evaluate(const glsl::CutVertex& vertex, const std::vector<glsl::vec4
 /// piece, and a whole triangle has at most one cut edge (a slit's end); that a spring has the uncut one's share or
 /// none; that a cut spring has share 0; that no diagonal joins the corners of a cell that the mesh has let go.
 inline void expect_consistent(const CutTopology& topology) {
-    const std::vector<std::size_t> piece = topology.pieces();
+    const std::vector<std::size_t> piece = pieces_of(topology);
     const std::size_t particle_count = topology.cloth().grid.particle_count();
     const std::vector<std::uint32_t>& indices = topology.indices();
     ASSERT_EQ(indices.size() % 3, 0u);
