@@ -37,8 +37,8 @@ struct FrameContents {
     std::uint32_t substeps = 0;        ///< 0: those of the scene
     bool cuts = false, tears = false;  ///< search for these
     bool hands_out = false;
-    bool counts = false;  ///< compute the statistics
-    auto operator<=>(const FrameContents&) const = default;
+    bool counts = false;                                     ///< compute the statistics
+    auto operator<=>(const FrameContents&) const = default;  // NOLINT: clang-tidy 14 takes its 0 for a pointer
     bool nothing() const { return !simulates && !cuts && !tears && !hands_out && !counts; }
 };
 
