@@ -1,4 +1,4 @@
-// Every surface in the picture is shaded by this formula, readable by GLSL and C++.
+// Every surface in the picture is shaded by this formula. tests/gpu/raster_test.cpp has it again in double precision.
 //
 //   radiance = albedo * O * (S (1 + n.u) / 2 + G (1 - n.u) / 2)   ambient: sky above, ground below (hemisphere light)
 //            + sum over lights, V = share of the first light that arrives (shadow map), c = n.l:
@@ -14,11 +14,6 @@
 #ifndef DRAPE_SHADING_H
 #define DRAPE_SHADING_H
 
-#ifdef __cplusplus
-#include "shared/glsl_types.h"
-namespace drape::glsl {
-#endif
-
 struct Surface {
     vec3 albedo;
     vec3 normal;
@@ -29,12 +24,12 @@ struct Surface {
     float openness;
 };
 
-SHARED float cosine(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+float cosine(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-SHARED float clamped(float x) { return x > 0.0f ? x : 0.0f; }
+float clamped(float x) { return x > 0.0f ? x : 0.0f; }
 
 /// `rise`: n.u
-SHARED vec3 ambient_radiance(Surface surface, float rise, vec3 sky, vec3 ground) {
+vec3 ambient_radiance(Surface surface, float rise, vec3 sky, vec3 ground) {
     float grazing = 1.0f - clamped(cosine(surface.normal, surface.to_eye));
     float sheen = surface.sheen * grazing * grazing * grazing * grazing;
     float up = 0.5f + 0.5f * rise;
@@ -42,12 +37,12 @@ SHARED vec3 ambient_radiance(Surface surface, float rise, vec3 sky, vec3 ground)
 }
 
 /// One light's diffuse part. `arriving`: light colour times intensity times visibility.
-SHARED vec3 light_radiance(Surface surface, vec3 to_light, vec3 arriving) {
+vec3 light_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     float facing = cosine(surface.normal, to_light);
     return surface.albedo * arriving * (facing > 0.0f ? facing : surface.transmission * -facing);
 }
 
-SHARED vec3 highlight_radiance(Surface surface, vec3 to_light, vec3 arriving) {
+vec3 highlight_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     vec3 halfway = to_light + surface.to_eye;
     float squared = cosine(halfway, halfway);
     float power = squared > 0.0f && cosine(surface.normal, to_light) > 0.0f
@@ -61,9 +56,5 @@ SHARED vec3 highlight_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     power = power * power;
     return arriving * (surface.gloss * power);
 }
-
-#ifdef __cplusplus
-}  // namespace drape::glsl
-#endif
 
 #endif
