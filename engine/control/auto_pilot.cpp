@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cloth/statistics_transfer.h"
+#include "control/balance.h"
 #include "control/impossible_scene.h"
 #include "control/named_pilot.h"
 #include "control/passage_watch.h"
@@ -49,20 +50,25 @@ void AutoPilot::begin() {
     begun_ = writer.take();
     attempt_ = {};
     kept_ = {.first = simulated_};
-    if (sleep_.asleep(simulated_)) {
+    if (sleep_.asleep(simulated_) && !stated_.sensitivity.undecided()) {
         attempt_.phase = Phase::asleep;
         return;
     }
     const Segment& segment = control_.begin(probe_room(model_, simulated_), drive_.eventful(simulated_));
     if (segment.probes) drive_.probed(simulated_, segment.frame_count);
     kept_.effort.attempts = 0;
+    if (simulated_ == 1 && model_.has_companions() && starts_in_balance(model_)) {
+        stated_.sensitivity.begin(0);
+        attempt_.phase = Phase::disturb_start;
+        return;
+    }
     begin_attempt();
 }
 
 void AutoPilot::begin_attempt() {
     attempt_.phase = probes() ? Phase::coarse : Phase::fine;
     attempt_.next = 0;
-    attempt_.judgement = {.sensitive = stated_.sensitivity.is_sensitive()};
+    attempt_.judgement = {.sensitive = stated_.sensitivity.excuses()};
     kept_.statistics.clear();
     kept_.contacts.clear();
     kept_.list_use = 0;
@@ -113,6 +119,11 @@ Work AutoPilot::frame_beside(StateSet set) {
     return work;
 }
 
+Work AutoPilot::disturb() {
+    history_in(histories_, StateSet::disturbed) = history_in(histories_, StateSet::companion);
+    return step_alone(kept_.first, StateStep::disturb);
+}
+
 Work AutoPilot::handed_out(std::uint32_t frame) const {
     Work work;
     work.frame = frame;
@@ -138,6 +149,9 @@ std::optional<Work> AutoPilot::next_work() {
             attempt_.phase = Phase::done;
             return Work{.frame = kept_.first, .hands_out = true, .known = std::move(still)};
         }
+        case Phase::disturb_start:
+            begin_attempt();
+            return disturb();
         case Phase::coarse:
             return attempted(control_.segment().substeps / 2, StateStep::remember);
         case Phase::fine:
@@ -154,9 +168,8 @@ std::optional<Work> AutoPilot::next_work() {
         case Phase::compare_disturbed:
             return step_alone(kept_.first, StateStep::compare_disturbed);
         case Phase::disturb:
-            history_in(histories_, StateSet::disturbed) = history_in(histories_, StateSet::companion);
             finish();
-            return step_alone(kept_.first, StateStep::disturb);
+            return disturb();
         case Phase::finish: {
             attempt_.phase = Phase::done;
             return handed_out(simulated_ - 1);
@@ -214,14 +227,16 @@ void AutoPilot::take_fine(const Work& work, const WorkResult& result) {
 
 /// Returns the estimated error of the worst cloth's motion, divided by its limit.
 double AutoPilot::motion_of(std::span<const double> differences) {
+    FrameEffort& effort = kept_.effort;
     double worst = 0;
-    double& error_of_worst = kept_.effort.motion_error;
-    error_of_worst = 0;
     for (std::size_t cloth = 0; cloth < differences.size(); ++cloth) {
         const double error = motion_error(model_, differences[cloth], control_.segment().frame_count);
+        const double allowed = motion_limit(model_, cloth);
         if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
-        worst = std::max(worst, error / motion_limit(model_, cloth));
-        error_of_worst = std::max(error_of_worst, error);
+        if (cloth > 0 && error / allowed <= worst) continue;
+        worst = error / allowed;
+        effort.motion_error = error;
+        effort.motion_allowed = allowed;
     }
     return worst;
 }
@@ -263,14 +278,13 @@ void AutoPilot::keep() {
     before_ = kept_.statistics.back();
     history_in(histories_, StateSet::run) = segment.substeps;
     kept_.effort.substeps = segment.substeps;
-    if (!segment.probes) kept_.effort.motion_error = FrameEffort{}.motion_error;
     simulated_ = kept_.first + segment.frame_count;
     attempt_.next = 0;
     if (!model_.has_companions()) {
         control_.accumulated(unknown_share);
         return finish();
     }
-    if (stated_.sensitivity.is_sensitive()) return finish();  // no error of positions is stated for a sensitive run
+    if (stated_.sensitivity.is_lost()) return finish();  // no error of positions is stated any more
     attempt_.phase = Phase::companion;
 }
 
@@ -298,7 +312,7 @@ void AutoPilot::take_differences(StateStep step, std::span<const double> differe
     }
     const bool begins = sensitivity.begins(last, error, kept_.effort.predictable);
     if (begins) sensitivity.begin(last);
-    control_.accumulated(sensitivity.is_sensitive() ? 0 : error.share());
+    control_.accumulated(sensitivity.excuses() ? 0 : error.share());
     if (begins)
         attempt_.phase = Phase::disturb;
     else

@@ -9,8 +9,6 @@ namespace drape {
 
 namespace {
 
-/// s, within which a past error that comparisons no longer show decays to 1/e.
-constexpr double hold = 1.5;
 /// s, the shortest time for which an error is allowed.
 constexpr double least_time = 0.5;
 
@@ -34,16 +32,16 @@ void MotionError::weigh(std::uint32_t substeps, double passed, double kept) {
 }
 
 void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart) {
-    const double passed = (frame - last_frame_) / model_.scene.time.fps, kept = std::exp(-passed / hold);
+    const double passed = (frame - last_frame_) / model_.scene.time.fps, kept = std::exp(-passed / motion_error_hold);
     const double time = std::max(frame / model_.scene.time.fps, least_time);
     weigh(substeps, passed, kept);
     last_frame_ = frame;
-    error_ = share_ = 0;
     for (std::size_t cloth = 0; cloth < apart.size(); ++cloth) {
-        const double error = richardson_error(order(), ratio_, apart[cloth]);
-        held_[cloth] = std::max(error, kept * held_[cloth]);
-        error_ = std::max(error_, held_[cloth]);
-        share_ = std::max(share_, held_[cloth] / (motion_limit(model_, cloth) * time));
+        held_[cloth] = std::max(richardson_error(order(), ratio_, apart[cloth]), kept * held_[cloth]);
+        const double allowed = motion_limit(model_, cloth) * time;
+        if (cloth > 0 && held_[cloth] / allowed <= share()) continue;
+        error_ = held_[cloth];
+        allowed_ = allowed;
     }
 }
 

@@ -3,6 +3,7 @@
 // carries on, a swing brings it back, damping takes it away) therefore happens in the companion as well.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -14,6 +15,8 @@ namespace drape {
 
 /// The stated error is within this factor of the true one in four of five scenes (docs/accuracy.md).
 inline constexpr double motion_error_confidence = 3;
+/// s, within which a distance that comparisons no longer show decays to 1/e.
+inline constexpr double motion_error_hold = 1.5;
 
 /// Returns whether the runs are compared at the end of `last`, a segment's last frame: at the end of every probe, and
 /// otherwise once per probe's length, since every comparison waits for the device.
@@ -25,13 +28,14 @@ class MotionError {
 
     /// Takes each cloth's RMS distance (m) from the companion at the end of a frame that had so many substeps.
     void saw(std::uint32_t frame, std::uint32_t substeps, std::span<const double> apart);
-    /// Returns the estimated RMS position error of the worst cloth, m; NaN where nothing was compared.
+    /// Returns the estimated RMS position error, m, of the cloth whose error is the largest share of what is allowed;
+    /// NaN where nothing was compared.
     double error() const { return error_; }
-    /// Returns the worst cloth's estimated error divided by the error that the motion's limit allows until then.
-    double share() const { return share_; }
-    /// Returns the error that the limit allows until then, m: the limit (m/s) times the time, but at least half a
-    /// second, since an error may grow to its size at half a second much sooner.
-    double allowed() const { return share_ > 0 ? error_ / share_ : std::numeric_limits<double>::quiet_NaN(); }
+    /// Returns the error that the motion's limit allows this cloth until then, m: the limit (m/s) times the time, but
+    /// at least half a second, since an error may grow to its size at half a second much sooner.
+    double allowed() const { return allowed_; }
+    /// Returns the error divided by what is allowed; 0 where nothing was compared.
+    double share() const { return std::isnan(error_) ? 0 : error_ / allowed_; }
 
     /// Returns the error in the scene's last frame, m, if it keeps growing in proportion to time.
     double at_end() const;
@@ -39,7 +43,7 @@ class MotionError {
     /// Writes or reads what is known. Returns whether what was read is possible.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(held_, ratio_, weight_, last_frame_, error_, share_);
+        archive(held_, ratio_, weight_, last_frame_, error_, allowed_);
         return held_.size() == model_.cloths.size();
     }
 
@@ -53,7 +57,7 @@ class MotionError {
     double ratio_ = 1;   ///< of the companion's time step to the run's, averaged over the time in which errors arose
     double weight_ = 0;  ///< the weight of that average
     std::uint32_t last_frame_ = 0;
-    double error_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;
+    double error_ = std::numeric_limits<double>::quiet_NaN(), allowed_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace drape

@@ -27,8 +27,8 @@ FrameValues numbers_of(const FrameValues& values, const std::string& label) {
     for (const auto& [name, value] : values) {
         if (name.starts_with(own)) numbers[name.substr(own.size())] = value;
         for (const std::string_view effort :
-             {"substeps", "attempts", "motion_error_m_s", "position_error_m", "position_error_at_end_m",
-              "position_allowed_m", "parted_m", "sensitive", "asleep"})
+             {"substeps", "attempts", "motion_error_m_s", "motion_allowed_m_s", "position_error_m",
+              "position_error_at_end_m", "position_allowed_m", "parted_m", "sensitive", "asleep"})
             if (name == effort) numbers[name] = value;
     }
     return numbers;

@@ -65,7 +65,7 @@ bool needs_every_frame(const SceneDescription& scene) { return scene.comes_apart
 /// Returns the warning for a run that did not keep the limits of `auto`.
 std::optional<std::string> missed_limits(const SimulationFacts& facts, const RunStatistics& statistics,
                                          const RunVerdict& verdict) {
-    if (facts.limits_are_kept) return statistics.inexact_motion();
+    if (facts.limits_are_kept) return std::nullopt;
     const double rms = std::max(verdict.stretch_error_rms, statistics.worst_of_run("/stretch_error_rms")).value_or(0),
                  largest =
                      std::max(verdict.stretch_error_max, statistics.worst_of_run("/stretch_error_max")).value_or(0);
@@ -348,8 +348,10 @@ void FolderRun::finish() {
     manifest_.warnings = summary_.warnings;
     manifest_.solver.stretch_error = simulation_->verdict().stretch_error_rms;
     describe_contact(manifest_, *simulation_, sink_->cuts());
-    for (const auto& note : {left_out_triangles(manifest_), sink_->statistics()->sensitive_motion()})
-        if (note && !request_.quiet) say("note: " + *note);
+    std::vector<std::string> notes = simulation_->verdict().notes;
+    if (const auto note = left_out_triangles(manifest_)) notes.push_back(*note);
+    for (const std::string& note : notes)
+        if (!request_.quiet) say("note: " + note);
     finish_files();
     sink_.reset();
     simulation_ = nullptr;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/motion_error.h"
-
 namespace drape {
 
 namespace {
@@ -62,6 +60,7 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         values["substeps"] = frame.effort.substeps;
         values["attempts"] = frame.effort.attempts;
         values["motion_error_m_s"] = frame.effort.motion_error;
+        values["motion_allowed_m_s"] = frame.effort.motion_allowed;
     }
     values["position_error_m"] = frame.effort.position_error;
     values["position_error_at_end_m"] = frame.effort.position_error_at_end;
@@ -100,10 +99,6 @@ void RunStatistics::add(std::uint32_t frame, const FrameValues& values) {
         double& largest = largest_.try_emplace(name, value).first->second;
         largest = std::max(largest, value);
     }
-    if (values.contains("sensitive") && (!sensitive_ || frame < sensitive_->frame))
-        sensitive_ = {frame, value_of(values, "parted_m"), 0};
-    if (!values.contains("sensitive") && values.contains("position_error_m") && (!exact_ || frame >= exact_->frame))
-        exact_ = {frame, value_of(values, "position_error_m"), value_of(values, "position_allowed_m")};
     if (frames_) frames_->add(frame, values);
 }
 
@@ -118,22 +113,6 @@ std::optional<double> RunStatistics::worst(const FrameValues& values, std::strin
 std::optional<double> RunStatistics::energy_drift(const FrameValues& values) const {
     const auto now = energy(values);
     return now && first_ && first_->second ? std::optional(*now - *first_->second) : std::nullopt;
-}
-
-std::optional<std::string> RunStatistics::inexact_motion() const {
-    if (sensitive_ || !exact_ || !(exact_->value > exact_->allowed)) return std::nullopt;
-    return fmt::format(
-        "at frame {} positions are about {:.2g} mm from the exact motion (by an estimate that is right within a factor "
-        "of {}), where solver.tolerance_motion allows {:.2g} mm; a smaller one takes more substeps",
-        exact_->frame, 1000 * exact_->value, motion_error_confidence, 1000 * exact_->allowed);
-}
-
-std::optional<std::string> RunStatistics::sensitive_motion() const {
-    if (!sensitive_) return std::nullopt;
-    return fmt::format(
-        "the motion is sensitive from frame {} on: runs that are equally exact had parted by {:.2g} mm there, as where "
-        "cloth crumples; stretch, contact and means hold",
-        sensitive_->frame, 1000 * sensitive_->value);
 }
 
 std::string RunStatistics::note(const FrameValues& values) const {

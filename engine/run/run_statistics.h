@@ -39,17 +39,7 @@ class RunStatistics {
     /// Returns the largest value of "<cloth>" + `name` over all frames and cloths.
     std::optional<double> worst_of_run(std::string_view name) const { return worst(largest_, name); }
 
-    /// Returns the warning that the last frame's estimated position error is above the allowed one, with what the scene
-    /// can do about it; nothing where the motion is sensitive.
-    std::optional<std::string> inexact_motion() const;
-    /// Returns the note that exact positions mean nothing from some frame on.
-    std::optional<std::string> sensitive_motion() const;
-
   private:
-    struct Motion {
-        std::uint32_t frame = 0;
-        double value = 0, allowed = 0;  ///< m
-    };
     static std::optional<double> worst(const FrameValues& values, std::string_view name);
     std::optional<double> energy_drift(const FrameValues& values) const;
 
@@ -57,8 +47,6 @@ class RunStatistics {
     std::size_t count_ = 0;
     std::optional<std::pair<std::uint32_t, std::optional<double>>> first_;  ///< the first frame, and its energy
     FrameValues largest_;                                                   ///< by name, the largest value
-    std::optional<Motion> sensitive_;  ///< the first sensitive frame, and how far runs had diverged
-    std::optional<Motion> exact_;      ///< the last frame that is not sensitive, with its position error
 };
 
 }  // namespace drape

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "control/motion_watch.h"
 #include "run/scene_oracles.h"
 #include "simulation/frame_checks.h"
 #include "solver/kernel_choice.h"
@@ -34,11 +35,11 @@ struct Worst {
 /// Keeps the values of frames that are judged in the end.
 class FrameWatch {
   public:
-    explicit FrameWatch(const SimulationModel& model) : model_(model), watch_(model) {}
+    explicit FrameWatch(const SimulationModel& model) : motion(model), model_(model), watch_(model) {}
 
     void see(const FinishedFrame& frame) {
         ++count_;
-        see_motion(frame);
+        motion.look(frame.frame, frame.effort);
         for (std::size_t cloth = 0; cloth < frame.statistics.size(); ++cloth) {
             const ClothStatistics& statistics = frame.statistics[cloth];
             const std::string& name = model_.cloths[cloth].name;
@@ -57,27 +58,13 @@ class FrameWatch {
     }
     std::uint32_t count() const { return count_; }
 
-    /// The last position error that a frame states, and the allowed one, m; or else the first frame from which on no
-    /// error is stated, and how far equally exact runs had diverged.
-    struct Motion {
-        std::uint32_t frame = 0;
-        double error = 0, allowed = 0, parted = 0;
-        bool sensitive = false;
-    };
     Worst stretch, error, penetration;
-    std::optional<Motion> motion;
+    MotionWatch motion;
     std::string nonsense,
         missed;  ///< the first frame that is not plausible, and the first that misses its tolerance; empty: none
     bool finite = true;
 
   private:
-    void see_motion(const FinishedFrame& frame) {
-        const FrameEffort& effort = frame.effort;
-        if (motion && motion->sensitive) return;
-        if (effort.sensitive || std::isfinite(effort.position_error))
-            motion = {frame.frame, effort.position_error, effort.position_allowed, effort.parted, effort.sensitive};
-    }
-
     const SimulationModel& model_;
     Watch watch_;
     std::uint32_t count_ = 0;
@@ -91,16 +78,16 @@ Finding limit(const char* name, const char* what, const Worst& worst, double all
                         unit)};
 }
 
-/// Returns a judgement of the stated position error, or says that positions cannot be predicted.
-Finding motion_finding(const FrameWatch::Motion& motion) {
-    if (motion.sensitive)
-        return {"motion", true,
-                fmt::format("sensitive from frame {} on, where equally exact runs had parted by {:.2g} m: stretch, "
-                            "contact and means are judged, positions are not",
-                            motion.frame, motion.parted)};
-    return {"motion", motion.error <= motion.allowed,
-            fmt::format("positions about {:.2g} m from the exact motion at frame {}, allowed {:.2g} m", motion.error,
-                        motion.frame, motion.allowed)};
+/// Returns a judgement of the worst frame's position error, but for what of it is excused.
+Finding motion_finding(const MotionWatch& watch) {
+    const MotionWatch::Position& worst = *watch.worst();
+    std::string text =
+        fmt::format("positions at most about {:.2g} m from the exact motion (frame {}), allowed {:.2g} m", worst.error,
+                    worst.frame, worst.allowed);
+    if (worst.excused > 0)
+        text += fmt::format(" beside {:.2g} m by which equally exact runs had parted", worst.excused);
+    if (watch.parting()) text += fmt::format("; sensitive from frame {} on", watch.parting()->frame);
+    return {"motion", worst.share() <= 1, text};
 }
 
 /// The limits that every run must keep.
@@ -115,7 +102,7 @@ std::vector<Finding> common_findings(const Request& request, const SimulationMod
     else if (model.asked_tolerance > 0 || model.closed_loop())
         findings.push_back(limit("tolerance", "stretch error", frames.error,
                                  model.closed_loop() ? tolerance : model.asked_tolerance, ""));
-    if (frames.motion) findings.push_back(motion_finding(*frames.motion));
+    if (frames.motion.worst()) findings.push_back(motion_finding(frames.motion));
     if (request.stretch) findings.push_back(limit("limit/stretch", "RMS strain", frames.stretch, *request.stretch, ""));
     if (request.stretch_error)
         findings.push_back(limit("limit/stretch_error", "RMS stretch error", frames.error, *request.stretch_error, ""));

@@ -10,6 +10,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/members.h"
 #include "cloth/together.h"
+#include "control/motion_watch.h"
 #include "control/passage_watch.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
@@ -106,6 +107,7 @@ CutListener cut_listener(const std::function<void(const Cut&)>& on_cut) {
 
 constexpr const char* watch_part = "watch";
 constexpr const char* passages_part = "passages";
+constexpr const char* motion_part = "motion";
 
 template <class Kept>
 std::vector<std::byte> written(Kept& kept) {
@@ -135,6 +137,7 @@ struct Simulation::Parts {
           model(checked_scene(scene), {.skip = options.skip, .device = device_kind(given.info())}),
           watch(model),
           passages(model),
+          motion(model),
           asked(frame_options(scene, options)) {}
 
     /// Makes the scene the only member of a server, and prepares the pictures if another device draws them.
@@ -171,6 +174,7 @@ struct Simulation::Parts {
 
     /// Returns the frame's failure, or throws it, as the options say.
     std::optional<FrameFailure> judge(const FinishedFrame& frame) {
+        motion.look(frame.frame, frame.effort);
         const std::uint32_t substeps = frame.effort.substeps;
         if (!frame.statistics.empty())
             passages.look(frame.frame, substeps > 0 ? substeps : model.scene.solver.substeps, frame.statistics);
@@ -228,6 +232,7 @@ struct Simulation::Parts {
     Watch watch;
     std::optional<FrameFailure> failure;  ///< of the first frame that failed, whether it was handed out or not
     PassageWatch passages;
+    MotionWatch motion;
     FrameOptions asked;
     std::shared_ptr<FrameServer> server;
     std::size_t number = 0;                   ///< among the members of the server
@@ -336,17 +341,20 @@ SimulationState Simulation::save() const {
     SimulationState state = saved_state(*parts_->server, 0);
     state[watch_part] = written(parts_->watch);
     state[passages_part] = written(parts_->passages);
+    state[motion_part] = written(parts_->motion);
     return state;
 }
 
 void Simulation::restore(const SimulationState& state) {
     ByteReader watch = checked_part<Watch>(state, watch_part, parts_->model);
     ByteReader passages = checked_part<PassageWatch>(state, passages_part, parts_->model);
+    ByteReader motion = checked_part<MotionWatch>(state, motion_part, parts_->model);
     if (!parts_->is_alone()) throw Error("simulations that were made together cannot be restored");
     const std::size_t only = 0;
     restore_states(*parts_->server, std::span(&only, 1), std::span(&state, 1));
     parts_->watch.transfer(watch);
     parts_->passages.transfer(passages);
+    parts_->motion.transfer(motion);
     if (parts_->pictures) parts_->pictures->follow(parts_->topologies());
 }
 
@@ -390,7 +398,10 @@ SimulationFacts Simulation::facts() const {
 std::optional<SelfContactReport> Simulation::self_contact() const { return parts_->run().self_contact(); }
 
 RunVerdict Simulation::verdict() const {
-    return {parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings()};
+    RunVerdict all{parts_->failure, parts_->watch.worst_rms(), parts_->watch.worst_max(), parts_->watch.warnings(), {}};
+    std::ranges::move(parts_->motion.warnings(), std::back_inserter(all.warnings));
+    if (const auto note = parts_->motion.note()) all.notes.push_back(*note);
+    return all;
 }
 
 std::optional<std::string> Simulation::possible_passage() const { return parts_->passages.text(); }

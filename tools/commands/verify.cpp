@@ -49,7 +49,7 @@ void add_verify(Program& program) {
 Runs every scene to its end, without pictures, under validation, and judges: its oracles (`drape schema --markdown`
 lists them), that every frame is finite, plausible and within the scene's tolerance, the limits given here, and that
 the validation layer said nothing. Where the position error is estimated (method auto, solver.estimate_error) it judges
-the motion too: the last error that is stated against what solver.tolerance_motion allows by then, of which simulate and
+the motion too: the worst frame's error against what solver.tolerance_motion allows by then, of which simulate and
 render only warn. Exit code 7 when anything is missed.
 
 Examples:

@@ -27,16 +27,19 @@ struct FrameEffort {
     /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
+    /// What tolerance_motion allows this cloth, m/s.
+    double motion_allowed = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
     /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated,
-    /// or is `sensitive`.
+    /// and where equally exact runs have long parted as far.
     double position_error = std::numeric_limits<double>::quiet_NaN();
     /// The position error of the last frame, if it goes on growing in proportion to time, m.
     double position_error_at_end = std::numeric_limits<double>::quiet_NaN();
     /// The position error that tolerance_motion allows until then, m.
     double position_allowed = std::numeric_limits<double>::quiet_NaN();
-    /// Method `auto` found that equally exact runs part as far as position_error says (cloth that crumples): positions
-    /// have no truth from here on. Stretch, contact and means hold all the same.
+    /// Method `auto` found, in this frame or before, that equally exact runs part by half of position_error or more
+    /// (cloth that crumples): so much of it, `parted`, is no fault of the run. Stretch, contact and means hold all the
+    /// same.
     bool sensitive = false;
     /// How far apart such runs were when they were last compared, m; NaN: they were not.
     double parted = std::numeric_limits<double>::quiet_NaN();

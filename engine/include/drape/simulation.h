@@ -109,6 +109,7 @@ struct RunVerdict {
     /// The worst of any frame and cloth. Nothing: no frame was judged.
     std::optional<double> stretch_error_rms, stretch_error_max;
     std::vector<std::string> warnings;  ///< what is no failure, but nothing to keep silent about
+    std::vector<std::string> notes;     ///< what holds of the motion itself, however it is computed
 };
 
 /// The work of one kind of pass in a frame that is handed out, with the substeps that the scene begins with.

@@ -1,0 +1,77 @@
+#include "control/balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/vectors.h"
+#include "world/collider_pose.h"
+#include "world/weather.h"
+
+namespace drape {
+
+namespace {
+
+constexpr double slight = 1e-6;  ///< relative to lengths
+
+Vec3 place_of(const ClothModel& cloth, std::size_t particle) {
+    const glsl::vec4& at = cloth.position[particle];
+    return {at.x, at.y, at.z};
+}
+
+/// Returns the unit normal of a cloth that starts flat.
+std::optional<Vec3> normal_of(const ClothModel& cloth) {
+    if (cloth.is_given) return std::nullopt;
+    const Vec3 normal = unit_of(cross(cloth.placement.u, cloth.placement.v));
+    const double first = dot(place_of(cloth, 0), normal);
+    for (std::size_t k = 0; k < cloth.position.size(); ++k)
+        if (std::abs(dot(place_of(cloth, k), normal) - first) > slight * cloth.reach()) return std::nullopt;
+    return normal;
+}
+
+/// Returns whether cloth in a plane that gravity does not leave may be pushed together: some of it is above all that is
+/// held, or stands on a collider, its pins move, or it starts shorter than it is.
+bool is_pushed(const SimulationModel& model, const ClothModel& cloth, const Vec3& gravity) {
+    const bool shorter = std::ranges::min(cloth.placement.scale) < 1;
+    if (shorter || std::ranges::any_of(cloth.dynamic_pins, [](const DynamicPin& pin) { return pin.path.moves(); }))
+        return true;
+    if (length(gravity) == 0) return false;
+    double highest_held = -std::numeric_limits<double>::infinity(), highest = highest_held;
+    for (std::size_t k = 0; k < cloth.position.size(); ++k) {
+        const double height = -dot(place_of(cloth, k), gravity) / length(gravity);
+        double& most = cloth.position[k].w > 0 ? highest : highest_held;
+        most = std::max(most, height);
+    }
+    if (std::isinf(highest_held)) return !model.scene.colliders.empty();
+    return highest > highest_held + slight * cloth.reach();
+}
+
+/// Returns whether level cloth that nothing holds is above the middle of a collider.
+bool falls_on_a_middle(const SimulationModel& model, const ClothModel& cloth, const Vec3& gravity) {
+    constexpr double near = 0.1;
+    if (std::ranges::any_of(cloth.position, [](const glsl::vec4& at) { return !(at.w > 0); })) return false;
+    Vec3 sum{};
+    for (std::size_t k = 0; k < cloth.position.size(); ++k) sum = plus(sum, place_of(cloth, k));
+    const Vec3 middle = times(1.0 / static_cast<double>(cloth.position.size()), sum);
+    return std::ranges::any_of(model.scene.colliders, [&](const Collider& collider) {
+        if (std::holds_alternative<Plane>(collider.shape)) return false;
+        const Vec3 way = minus(collider_pose(collider, 0).center, middle);
+        return length(cross(way, gravity)) < near * cloth.reach() * length(gravity);
+    });
+}
+
+}  // namespace
+
+bool starts_in_balance(const SimulationModel& model) {
+    if (model.windy) return false;
+    const Vec3 gravity = gravity_at(model.scene, 0);
+    return std::ranges::any_of(model.cloths, [&](const ClothModel& cloth) {
+        const std::optional<Vec3> normal = normal_of(cloth);
+        if (!normal) return false;
+        if (std::abs(dot(gravity, *normal)) <= slight * length(gravity)) return is_pushed(model, cloth, gravity);
+        return length(cross(gravity, *normal)) <= slight * length(gravity) && falls_on_a_middle(model, cloth, gravity);
+    });
+}
+
+}  // namespace drape
