@@ -245,8 +245,12 @@ void AutoPilot::conclude() {
     using Verdict = SubstepControl::Verdict;
     FrameEffort& effort = kept_.effort;
     ++effort.attempts;
+    const FailedAttempt failed = control_.failure(attempt_.judgement);
     const Verdict verdict = control_.judge(attempt_.judgement);
-    if (verdict == Verdict::again) return begin_attempt();
+    if (verdict == Verdict::again) {
+        effort.failed.push_back(failed);
+        return begin_attempt();
+    }
     if (verdict == Verdict::give_up) refuse();
     effort.within_limits = verdict != Verdict::give_up || !attempt_.judgement.plausible;
     effort.predictable = verdict != Verdict::unpredictable;

@@ -87,6 +87,15 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     return Verdict::again;
 }
 
+FailedAttempt SubstepControl::failure(const Judgement& judgement) const {
+    const std::uint32_t substeps = segment_.substeps;
+    if (!(judgement.watch <= 1)) return {substeps, Criterion::watch, judgement.watch};
+    if (!(judgement.stretch <= 1)) return {substeps, Criterion::stretch, judgement.stretch};
+    if (!(judgement.motion / slack_ <= 1)) return {substeps, Criterion::motion, judgement.motion};
+    if (passes(judgement)) return {substeps, Criterion::passage, judgement.passage};
+    return {substeps, Criterion::lag, judgement.lag};
+}
+
 /// Returns whether, at the top rung, the motion alone fails, and a quarter of its substeps has not been tried to see
 /// whether more substeps help.
 bool SubstepControl::worth_looking_back(const Judgement& judgement) const {

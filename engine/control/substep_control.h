@@ -10,6 +10,7 @@
 #include <span>
 
 #include "cloth/rungs.h"
+#include "drape/frame.h"
 
 namespace drape {
 
@@ -56,6 +57,8 @@ class SubstepControl {
     enum class Verdict { keep, unpredictable, again, give_up };
     /// Judges the attempt that `segment` describes. After `again`, `segment` describes the next attempt.
     Verdict judge(const Judgement& judgement);
+    /// Returns by what an attempt fails that `judge` wants again; it is asked before `judge`.
+    FailedAttempt failure(const Judgement& judgement) const;
     /// Returns whether the frames that an attempt has done so far make it fail, so that the others need not be
     /// simulated.
     bool fails(const Judgement& judgement) const {

@@ -62,6 +62,10 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         values["motion_error_m_s"] = frame.effort.motion_error;
         values["motion_allowed_m_s"] = frame.effort.motion_allowed;
     }
+    for (const FailedAttempt& failed : frame.effort.failed) {
+        double& worst = values[fmt::format("failed_{}", criterion_names[static_cast<std::size_t>(failed.criterion)])];
+        worst = std::max(worst, failed.times);
+    }
     values["position_error_m"] = frame.effort.position_error;
     values["position_error_at_end_m"] = frame.effort.position_error_at_end;
     values["position_allowed_m"] = frame.effort.position_allowed;

@@ -216,6 +216,14 @@ TEST(Pilot, OfAutoDoesAFrameAgainWhereItsErrorRises) {
     const Flight flight = fly(*pilot, cloth, 190);
     expect_each_once(flight.frames, 190);
     EXPECT_TRUE(std::ranges::any_of(flight.efforts, [](const FrameEffort& each) { return each.attempts > 1; }));
+    for (const FrameEffort& each : flight.efforts) {
+        ASSERT_EQ(each.failed.size() + 1, std::max(each.attempts, 1u));
+        for (const FailedAttempt& failed : each.failed) {
+            EXPECT_EQ(failed.criterion, Criterion::motion);
+            EXPECT_GT(failed.times, 1);
+            EXPECT_LT(failed.substeps, each.substeps);
+        }
+    }
     EXPECT_GT(flight.substeps[189], flight.substeps[70]);
     double last = 0;
     for (const FrameEffort& each : flight.efforts)

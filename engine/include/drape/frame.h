@@ -1,12 +1,14 @@
 // These are the values that a simulation hands out: frames, what each took, and the cuts found at its end.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drape/error.h"
@@ -20,10 +22,20 @@ struct StageTime {
     double milliseconds = 0;
 };
 
+/// What an attempt of method `auto` at a frame, or at a few frames together, may fail by (docs/solvers.md).
+enum class Criterion { stretch, motion, passage, lag, watch };
+inline constexpr std::array<std::string_view, 5> criterion_names{"stretch", "motion", "passage", "lag", "watch"};
+struct FailedAttempt {
+    std::uint32_t substeps = 0;
+    Criterion criterion = {};
+    double times = 0;  ///< what was measured, divided by its limit
+};
+
 /// The work that a frame took.
 struct FrameEffort {
     std::uint32_t substeps = 0;
-    std::uint32_t attempts = 1;  ///< method `auto`: 1 where the first was kept
+    std::uint32_t attempts = 1;              ///< method `auto`: 1 where the first was kept
+    std::vector<FailedAttempt> failed = {};  ///< the attempts before the one that was kept, in their order
     /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
