@@ -29,7 +29,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       start_speed(drape::start_speed(cloth)),
       rigid(cloth.stiffness.rigid),
       compression(static_cast<float>(cloth.stiffness.compression)),
-      bend(cloth.stiffness.bend),
+      bend(cloth.stiffness.bend.largest()),
       stiffness_constant(stiffness_constants(cloth.stiffness, spacing)),
       shows_crumbs(std::ranges::any_of(scene.cutters, &Cutter::crumbs)) {
     // An axis of two particles has no bending elements, so explicit steps may ignore their stiffness.

@@ -50,7 +50,7 @@ struct ClothGeometry {
     double start_speed;                     ///< m/s: the largest
     bool rigid;                             ///< stretch and shear springs are inextensible
     float compression;                      ///< share of their stiffness that springs have under compression
-    double bend;                            ///< N m
+    double bend;                            ///< N m: the largest of its rigidities
     StiffnessConstants stiffness_constant;  ///< wanted by the scene
 
     // The following lists have one element per particle, row by row.

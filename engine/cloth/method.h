@@ -55,8 +55,8 @@ struct MethodScheme {
     std::optional<glsl::TensionPush> gathered_tension;
 
     PerDirection<double> used_stiffness;  ///< N/m applied by direction, away from borders; infinite when rigid
-    double used_bend = 0;                 ///< N m applied along rows and columns
-    double used_twist = 0;                ///< N m applied where the cloth twists
+    double used_bend = 0;   ///< N m: the share of bending applied along rows and columns times the largest rigidity
+    double used_twist = 0;  ///< N m: the same where the cloth twists
     /// With fewer substeps per frame, effects would be lost that no judgement of a run notices: bending, and stiffness
     /// that micro-steps soften.
     std::uint32_t following_substeps = 1;

@@ -156,11 +156,12 @@ void note_compromise(const ClothGeometry& cloth, const MethodSettings& settings,
 }
 
 void carry_tension_to_release(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
-    if (!cloth.has_release || cloth.stiffness_constant.spring[0] == 0) return;
+    const PerDirection<double>& constant = cloth.stiffness_constant.spring;
+    if (!cloth.has_release || (constant[0] == 0 && constant[1] == 0)) return;
     scheme.carries_tension.fill(true);
     const double scale = damping_mean(cloth.damping, settings.substep_length) * settings.substep_length *
                          settings.substep_length / cloth.inner_mass;
-    PerDirection<double> scaled = cloth.stiffness_constant.spring;
+    PerDirection<double> scaled = constant;
     for (double& value : scaled) value *= scale;
     scheme.release_stiffness = texel(scaled);
 }

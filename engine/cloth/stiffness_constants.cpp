@@ -6,19 +6,19 @@ namespace drape {
 
 StiffnessConstants stiffness_constants(const Stiffness& stiffness, const std::array<double, 2>& spacing) {
     const double dx = spacing[0], dy = spacing[1];
-    const double stretch = stiffness.rigid ? rigid_stiffness : stiffness.stretch;
+    const WarpWeft stretch = stiffness.rigid ? rigid_stiffness : stiffness.stretch;
     const double shear = stiffness.rigid ? rigid_stiffness : stiffness.shear;
     StiffnessConstants constants;
     for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
         const SpringDirection& row = spring_directions[direction];
-        const bool along_columns = row.offset.y == 0;
         constants.spring[direction] = row.family == SpringFamily::shear ? shear * (dx * dx + dy * dy) / (2 * dx * dy)
-                                      : along_columns                   ? stretch * dy / dx
-                                                                        : stretch * dx / dy;
+                                      : row.offset.y == 0               ? stretch.warp * dy / dx
+                                                                        : stretch.weft * dx / dy;
         constants.rest_length[direction] = std::hypot(row.offset.x * dx, row.offset.y * dy);
     }
-    constants.twist = 2 * stiffness.bend / (dx * dy);
-    constants.bend = {stiffness.bend * dy / (dx * dx * dx), stiffness.bend * dx / (dy * dy * dy)};
+    const Rigidity& bend = stiffness.bend;
+    constants.twist = 2 * bend.twist / (dx * dy);
+    constants.bend = {bend.warp * dy / (dx * dx * dx), bend.weft * dx / (dy * dy * dy)};
     return constants;
 }
 

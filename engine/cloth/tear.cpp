@@ -178,7 +178,8 @@ std::array<double, 2> thread_limit(const Cloth& cloth, const Grid& grid, const T
     }
     if (count == 0) return {1, 0};  // the spring does not exist
     if (cloth.tear->strain) return {*cloth.tear->strain * factor, 0};
-    const double stretch = cloth.stiffness.stretch * stiffness / count, across = spacing[1 - thread.axis];
+    const double stretch = cloth.stiffness.stretch.along(thread.axis) * stiffness / count,
+                 across = spacing[1 - thread.axis];
     // Each of a cell's two diagonals transmits (diagonal / across)^2 / 2 of its strain, as shear, through the cell's
     // width.
     const double diagonal_squared = spacing[0] * spacing[0] + spacing[1] * spacing[1];

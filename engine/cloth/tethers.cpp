@@ -112,11 +112,11 @@ std::vector<glsl::ParticleTethers> find_tethers(const Grid& grid, const std::arr
 }
 
 double tether_give(const Cloth& cloth, const Vec3& gravity) {
-    if (cloth.stiffness.rigid || cloth.stiffness.stretch == 0) return 0;
+    if (cloth.stiffness.rigid || cloth.stiffness.stretch.least() == 0) return 0;
     const double softest = cloth.cell_stiffness.empty() ? 1 : std::ranges::min(cloth.cell_stiffness);
     const double heaviest = cloth.cell_density.empty() ? 1 : std::ranges::max(cloth.cell_density);
     const double weight = heaviest * cloth.areal_density * std::hypot(gravity[0], gravity[1], gravity[2]);
-    return weight * std::hypot(cloth.size[0], cloth.size[1]) / (softest * cloth.stiffness.stretch);
+    return weight * std::hypot(cloth.size[0], cloth.size[1]) / (softest * cloth.stiffness.stretch.least());
 }
 
 }  // namespace drape

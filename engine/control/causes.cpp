@@ -76,12 +76,13 @@ bool is_stiffened(const Cloth& cloth) {
 }
 
 /// Gravity stretched a cloth that keys make stiffer when it was at its softest, at the factor f. The strain rho g L/(k
-/// f) of a strip that hangs by its end is then released at the wave speed sqrt(k/rho) of the full stiffness.
+/// f) of a strip that hangs by its end is then released at the wave speed sqrt(k/rho) of the full stiffness: the softer
+/// of warp and weft moves faster.
 double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
     if (!is_stiffened(cloth)) return 0;
     const double softest = std::ranges::min(cloth.stiffness_keys, {}, &FactorKey::factor).factor;
     return length(strongest_gravity(scene)) * std::max(cloth.size[0], cloth.size[1]) *
-           std::sqrt(cloth.areal_density / cloth.stiffness.stretch) / softest;
+           std::sqrt(cloth.areal_density / cloth.stiffness.stretch.least()) / softest;
 }
 
 Causes::Start start_of(const SceneDescription& scene, const Cloth& described, const ClothModel& cloth,
@@ -102,7 +103,7 @@ Causes::Start start_of(const SceneDescription& scene, const Cloth& described, co
     if (start.strain > 0) start.held_strain = rounding * strain_between_pins(cloth);
     // Inextensible cloth has no wave speed: a strain spreads through all of it within a frame.
     start.wave = described.stiffness.rigid ? start.diagonal * scene.time.fps
-                                           : std::sqrt(described.stiffness.stretch / described.areal_density);
+                                           : std::sqrt(described.stiffness.stretch.largest() / described.areal_density);
     const double mass = cloth.inner_mass * (cloth.grid.columns() - 1) * (cloth.grid.rows() - 1);
     start.released = start.strain * start.wave + std::sqrt(2 * cloth.start_bending() / mass);
     start.recoil = recoil_of(scene, described);

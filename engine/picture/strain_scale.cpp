@@ -34,8 +34,8 @@ double rounded_up(double value) {
 double default_strain_range(const SceneDescription& scene) {
     double largest = 0;
     for (const Cloth& cloth : scene.cloths)
-        if (!cloth.stiffness.rigid && cloth.stiffness.stretch > 0)
-            largest = std::max(largest, edge_force(cloth, scene) / cloth.stiffness.stretch);
+        if (!cloth.stiffness.rigid && cloth.stiffness.stretch.least() > 0)
+            largest = std::max(largest, edge_force(cloth, scene) / cloth.stiffness.stretch.least());
     return rounded_up(std::clamp(largest, smallest_range, largest_range));
 }
 

@@ -37,7 +37,7 @@ inline Pin pin_top(const Cloth& cloth) { return pin_box(0, 0, cloth.grid[0] - 1,
 inline void set_wave_speed(Cloth& cloth, double wave_speed, double shear_share = 0.1) {
     cloth.areal_density = 0.2;
     cloth.stiffness.stretch = cloth.areal_density * wave_speed * wave_speed;
-    cloth.stiffness.shear = shear_share * cloth.stiffness.stretch;
+    cloth.stiffness.shear = shear_share * cloth.stiffness.stretch.warp;
 }
 
 /// A sheet of links x links over 1 m, pinned along its top row and turned by `degrees` about it (90: horizontal), with

@@ -39,7 +39,7 @@ const char* unsupported(ClothKey key, const Cloth& cloth) {
             return cloth.stiffness_keys.empty() ? nullptr
                                                 : "the double-precision reference knows no stiffness that changes";
         case ClothKey::rest:
-            return cloth.rest == Rest::start && cloth.stiffness.bend > 0
+            return cloth.rest == Rest::start && cloth.stiffness.bend.largest() > 0
                        ? "the double-precision reference knows no bending that is at rest when bent"
                        : nullptr;
         case ClothKey::name:
@@ -132,7 +132,7 @@ void SpringNetwork::hold_pins(const Cloth& cloth, const Grid& grid) {
 
 void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
     const auto [dx, dy] = grid_spacing(cloth);
-    const double stiffness[4] = {cloth.stiffness.stretch * dy / dx, cloth.stiffness.stretch * dx / dy,
+    const double stiffness[4] = {cloth.stiffness.stretch.warp * dy / dx, cloth.stiffness.stretch.weft * dx / dy,
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy),
                                  cloth.stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)};
     const double rest[4] = {dx, dy, std::hypot(dx, dy), std::hypot(dx, dy)};
@@ -154,8 +154,8 @@ void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
 }
 
 void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
-    const double rigidity = cloth.stiffness.bend;
-    if (rigidity == 0) return;
+    const Rigidity& rigidity = cloth.stiffness.bend;
+    if (rigidity.largest() == 0) return;
     const auto [dx, dy] = grid_spacing(cloth);
     const auto present = [&grid](int i, int j) { return grid.cell(i, j) != 0; };
     // Where cells differ, three particles bend as the softer of their two springs pulls.
@@ -163,8 +163,8 @@ void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
     const auto share = [&grid](std::uint32_t at) {
         return grid.spring_shares(at % grid.columns(), at / grid.columns());
     };
-    const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, double part, double h, double across) {
-        if (part > 0) bending.push_back({{p, q, r, q}, {1, -2, 1, 0}, part * rigidity * across / (h * h * h)});
+    const auto add = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, double constant, double h, double across) {
+        if (constant > 0) bending.push_back({{p, q, r, q}, {1, -2, 1, 0}, constant * across / (h * h * h)});
     };
     for (std::uint32_t row = 0; row < grid.rows(); ++row)
         for (std::uint32_t column = 0; column < grid.columns(); ++column) {
@@ -173,18 +173,18 @@ void SpringNetwork::add_bending(const Cloth& cloth, const Grid& grid) {
             const bool cells[4] = {present(i - 1, j - 1), present(i, j - 1), present(i - 1, j), present(i, j)};
             if (column > 0 && column + 1 < grid.columns())
                 add(p - 1, p, p + 1,
-                    mapped ? std::min(share(p - 1).x, share(p).x)
-                           : bending_share(cells[0], cells[1], cells[2], cells[3]),
+                    rigidity.warp * (mapped ? double{std::min(share(p - 1).x, share(p).x)}
+                                            : bending_share(cells[0], cells[1], cells[2], cells[3])),
                     dx, dy);
             if (row > 0 && row + 1 < grid.rows())
                 add(p - down, p, p + down,
-                    mapped ? std::min(share(p - down).y, share(p).y)
-                           : bending_share(cells[0], cells[2], cells[1], cells[3]),
+                    rigidity.weft * (mapped ? double{std::min(share(p - down).y, share(p).y)}
+                                            : bending_share(cells[0], cells[2], cells[1], cells[3])),
                     dy, dx);
             if (cells[3])
                 bending.push_back({{p, p + 1, p + down, p + down + 1},
                                    {1, -1, -1, 1},
-                                   2 * rigidity * grid.cell_stiffness(i, j) / (dx * dy)});
+                                   2 * rigidity.twist * grid.cell_stiffness(i, j) / (dx * dy)});
         }
 }
 

@@ -7,6 +7,16 @@
 
 namespace drape {
 
+std::string directions_text(const WarpWeft& each) {
+    if (each == WarpWeft(each.warp)) return fmt::format("{}", each.warp);
+    return fmt::format(R"({{"warp": {}, "weft": {}}})", each.warp, each.weft);
+}
+
+std::string directions_text(const Rigidity& each) {
+    if (each == Rigidity(each.warp)) return fmt::format("{}", each.warp);
+    return fmt::format(R"({{"warp": {}, "weft": {}, "twist": {}}})", each.warp, each.weft, each.twist);
+}
+
 ValueText fabric_text() {
     ValueText text{"\"enum\": [", ""};
     for (const Fabric& fabric : fabrics) {
@@ -25,9 +35,9 @@ std::string_view fabric_help() {
             "their "
             "own defaults.";
         for (const Fabric& fabric : fabrics)
-            text += fmt::format(" {}: {} kg/m^2, stretch {}, shear {} N/m, bend {:g} N m, friction {}. {}", fabric.name,
-                                fabric.areal_density, fabric.stiffness.stretch, fabric.stiffness.shear,
-                                fabric.stiffness.bend, fabric.friction, fabric.source);
+            text += fmt::format(" {}: {} kg/m^2, stretch {}, shear {} N/m, bend {} N m, friction {}. {}", fabric.name,
+                                fabric.areal_density, directions_text(fabric.stiffness.stretch), fabric.stiffness.shear,
+                                directions_text(fabric.stiffness.bend), fabric.friction, fabric.source);
         return text;
     }();
     return help;
@@ -58,12 +68,13 @@ void note_fabric(const SceneNode& cloth) {
     const auto number = [](double value) { return fmt::format("{}", value); };
     cloth.note_default("areal_density", number(fabric->areal_density));
     cloth.note_default("friction", number(fabric->friction));
-    cloth.note_default("stiffness", fmt::format(R"({{"stretch": {}, "shear": {}, "bend": {}}})", springs.stretch,
-                                                springs.shear, springs.bend));
+    const std::string stretch = directions_text(springs.stretch), bend = directions_text(springs.bend);
+    cloth.note_default("stiffness",
+                       fmt::format(R"({{"stretch": {}, "shear": {}, "bend": {}}})", stretch, springs.shear, bend));
     if (!stiffness || !stiffness.value()->isObject()) return;
-    stiffness.note_default("stretch", number(springs.stretch));
+    stiffness.note_default("stretch", stretch);
     stiffness.note_default("shear", number(springs.shear));
-    stiffness.note_default("bend", number(springs.bend));
+    stiffness.note_default("bend", bend);
 }
 
 }  // namespace drape

@@ -98,7 +98,9 @@ void take_factors(const MapFiles& files, const std::vector<double>& stiffness, c
     if (!stiffness.empty()) {
         const double largest = std::ranges::max(files.stiffness_range);
         cloth.cell_stiffness = factors(stiffness, files.stiffness_range, largest);
-        for (double* each : {&cloth.stiffness.stretch, &cloth.stiffness.shear, &cloth.stiffness.bend}) *each *= largest;
+        cloth.stiffness.stretch *= largest;
+        cloth.stiffness.shear *= largest;
+        cloth.stiffness.bend *= largest;
     }
     if (density.empty()) return;
     const double least = std::ranges::min(files.density_range);

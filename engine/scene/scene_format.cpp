@@ -111,17 +111,41 @@ const Object<Placement> placement{
     },
     check_placement};
 
+const Object<WarpWeft> warp_weft{
+    "warp_weft",
+    "Warp and weft apart. Where one is missing, that of the fabric or of the default holds.",
+    {
+        {"warp", &WarpWeft::warp, without_default(number(not_negative)), "N/m along u, the rows; 0 = none."},
+        {"weft", &WarpWeft::weft, without_default(number(not_negative)), "N/m along v, the columns; 0 = none."},
+    }};
+
+const Object<Rigidity> rigidity{
+    "rigidity",
+    "Warp, weft and twist apart: a strip that is cut at the angle a to the warp bends with the rigidity warp cos^4 a + "
+    "weft sin^4 a + 2 twist sin^2 a cos^2 a.",
+    {
+        {"warp", &Rigidity::warp, without_default(number(not_negative)), "N m along u, the rows."},
+        {"weft", &Rigidity::weft, without_default(number(not_negative)), "N m along v, the columns."},
+        {"twist", &Rigidity::twist, without_default(number(not_negative)),
+         "N m. Of a strip B45 that is cut at 45 degrees: 2 B45 - (warp + weft) / 2. Absent: the root of warp times "
+         "weft."},
+    },
+    set_twist};
+
 const Object<Stiffness> stiffness{
     "stiffness",
-    "With cells dx by dy, a spring along a row has the constant stretch dy/dx, along a column stretch dx/dy, each "
-    "diagonal shear (dx^2 + dy^2) / (2 dx dy). Consequences: uniaxial modulus stretch + stretch shear / (stretch + "
-    "shear); wave speed sqrt(stretch / areal_density) apart from shear.",
+    "With cells dx by dy, a spring along a row has the constant stretch.warp dy/dx, along a column stretch.weft dx/dy, "
+    "each diagonal shear (dx^2 + dy^2) / (2 dx dy). Consequences for square cells: the modulus along the warp is warp "
+    "+ weft shear / (weft + shear), along the weft likewise; wave speed sqrt(stretch / areal_density) apart from "
+    "shear.",
     {
-        {"stretch", &Stiffness::stretch, number(not_negative), "N/m; 0 = none."},
+        {"stretch", &Stiffness::stretch, number_or<WarpWeft>(warp_weft),
+         "N/m; 0 = none. A number is that of warp and weft."},
         {"shear", &Stiffness::shear, number(not_negative), "N/m; 0 = none."},
-        {"bend", &Stiffness::bend, number(not_negative),
-         "N m, bending rigidity B, the same in every direction: a strip hangs like the elastica of that rigidity per "
-         "width, and a sheet bends and twists like the plate of Poisson's ratio 0. Fabrics: 1e-6 to 1e-3. 0: none."},
+        {"bend", &Stiffness::bend, number_or<Rigidity>(rigidity),
+         "N m, bending rigidity B; a number is the same in every direction: a strip hangs like the elastica of that "
+         "rigidity per width, and a sheet bends and twists like the plate of Poisson's ratio 0. Fabrics: 1e-6 to 1e-3. "
+         "0: none."},
         {"compression", &Stiffness::compression, number({1e-3, 1.0, false}),
          "Share of stretch and shear that acts where springs are pushed together. 1: cloth gives way by the folds that "
          "the grid resolves. Less: by finer ones too, as fabrics buckle long before their threads give way (Choi and "

@@ -73,6 +73,29 @@ Value<Stiffness> rigid_or(const Value<Stiffness>& springs) {
     return value;
 }
 
+template <class Each>
+Value<Each> number_or(const Value<Each>& apart) {
+    Value<Each> value;
+    value.text = {"\"anyOf\": [{" + not_negative.schema() + "}, {" + apart.text.schema + "}]",
+                  not_negative.words() + " or " + apart.text.words, apart.text.uses};
+    value.read = [apart](const SceneNode& node, Each& field) {
+        if (!node || node.value()->isObject()) return apart.read(node, field);
+        double all = 0;
+        if (!node.read(all, not_negative)) return false;
+        field = all;
+        return true;
+    };
+    value.write = [](const Each& field) { return directions_text(field); };
+    return value;
+}
+template Value<WarpWeft> number_or(const Value<WarpWeft>&);
+template Value<Rigidity> number_or(const Value<Rigidity>&);
+
+bool set_twist(const Members& members, Rigidity& rigidity) {
+    if (!members["twist"]) rigidity.twist = std::sqrt(rigidity.warp * rigidity.weft);
+    return true;
+}
+
 Value<std::optional<SelfCollision>> true_or(const Value<SelfCollision>& object) {
     Value<std::optional<SelfCollision>> value;
     value.text = {"\"anyOf\": [{\"type\": \"boolean\"}, {" + object.text.schema + "}]",

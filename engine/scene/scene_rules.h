@@ -17,10 +17,16 @@ template <class Key>
 Value<std::vector<Key>> keys_in_time(const Value<Key>& key);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
 Value<Stiffness> rigid_or(const Value<Stiffness>& springs);
+/// A number for both directions, or an object that tells them apart, of a cloth's stretch or its bending.
+template <class Each>
+Value<Each> number_or(const Value<Each>& apart);
 /// The value true means all defaults, false means nothing.
 Value<std::optional<SelfCollision>> true_or(const Value<SelfCollision>& object);
 Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point);
 Value<std::string> check_name();
+/// JSON: a number where all directions are alike, else an object.
+std::string directions_text(const WarpWeft& each);
+std::string directions_text(const Rigidity& each);
 // The name of a fabric sets several fields.
 ValueText fabric_text();
 std::string_view fabric_help();
@@ -73,6 +79,8 @@ bool check_stiffness_keys(const Members& members, const Cloth& cloth);
 void check_tear_limits(const SceneNode& cloths, const SceneDescription& scene);
 /// Checks that there is room for the distances to all meshes.
 bool check_fields(const SceneNode& colliders, const SceneDescription& scene);
+/// Gives a rigidity that does not say how it twists the root of those along warp and weft.
+bool set_twist(const Members& members, Rigidity& rigidity);
 /// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.

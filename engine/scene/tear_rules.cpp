@@ -18,7 +18,8 @@ double least_tear_strain(const Cloth& cloth) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t cell = 0; cell < cells; ++cell) {
         const double factor = factor_of(cloth.cell_tear, cell);
-        const double stretch = cloth.stiffness.stretch * static_cast<double>(factor_of(cloth.cell_stiffness, cell));
+        const double stretch =
+            cloth.stiffness.stretch.largest() * static_cast<double>(factor_of(cloth.cell_stiffness, cell));
         least = std::min(least, factor * (cloth.tear->strain ? *cloth.tear->strain : *cloth.tear->tension / stretch));
         if (cloth.cell_tear.empty() && cloth.cell_stiffness.empty()) break;  // all cells are alike
     }
@@ -44,7 +45,7 @@ bool check_stiffness_keys(const Members& members, const Cloth& cloth) {
 }
 
 bool check_torn_cloth(const Members& members, const Cloth& cloth) {
-    if (!cloth.tear || (!cloth.stiffness.rigid && cloth.stiffness.stretch > 0)) return true;
+    if (!cloth.tear || (!cloth.stiffness.rigid && cloth.stiffness.stretch.least() > 0)) return true;
     return members["tear"].fail(
         cloth.stiffness.rigid
             ? "expected springs that stretch, got stiffness \"rigid\": what rigid ones stretch is the solver's error"

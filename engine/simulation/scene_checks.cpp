@@ -60,7 +60,7 @@ bool bears(const Cloth& cloth) {
     const Tear& tear = *cloth.tear;
     const double limit = tear.strain.value_or(0) + tear.tension.value_or(0);
     return tear.strain.has_value() != tear.tension.has_value() && limit > 0 && std::isfinite(limit) &&
-           !cloth.stiffness.rigid && cloth.stiffness.stretch > 0;
+           !cloth.stiffness.rigid && cloth.stiffness.stretch.least() > 0;
 }
 
 }  // namespace

@@ -272,5 +272,17 @@ TEST(TearTest, TheWeakerCellDecidesAndStifferCellsBearAtLessStrain) {
     EXPECT_FLOAT_EQ(limits()[4].y, 200 / 375.0f);
 }
 
+TEST(TearLimits, TensionIsThatOfTheThreadsDirection) {
+    SceneDescription scene = sheet_with({});
+    Cloth& cloth = scene.cloths[0];
+    cloth.stiffness = {false, {1000, 250}, 50, {}};
+    cloth.tear = Tear{.strain = {}, .tension = 100};
+    const glsl::vec4 limit = tear_limits(cloth, Grid(cloth))[2 * columns + 3];
+    EXPECT_FLOAT_EQ(limit.x, 0.1f);
+    EXPECT_FLOAT_EQ(limit.y, 0.4f);
+    EXPECT_FLOAT_EQ(limit.z, 50.0f / 2 / 1000) << "the cells are square: 2 a^2 / (2 a^2 n)";
+    EXPECT_FLOAT_EQ(limit.w, 50.0f / 2 / 250);
+}
+
 }  // namespace
 }  // namespace drape

@@ -31,7 +31,7 @@ SceneDescription sheets(std::size_t count) {
 void make_unlike(Cloth& cloth, double by) {
     cloth.size = {cloth.size[0] * by, cloth.size[1] / by};
     cloth.areal_density *= by;
-    cloth.stiffness.stretch /= by;
+    cloth.stiffness.stretch *= 1 / by;
     cloth.stiffness.shear *= by;
     cloth.stiffness.compression /= by;
     cloth.damping += by;

@@ -68,7 +68,7 @@ std::vector<SceneDescription> drawn(const SceneDescription& scene, std::size_t c
             cloth.areal_density = between(0.1, 0.4);
             cloth.stiffness.stretch = between(200, 600);
             cloth.stiffness.shear = between(40, 120);
-            if (cloth.stiffness.bend > 0) cloth.stiffness.bend = between(1e-6, 1e-4);
+            if (cloth.stiffness.bend.largest() > 0) cloth.stiffness.bend = between(1e-6, 1e-4);
             cloth.damping = between(0, 0.5);
             cloth.friction = between(0, 0.8);
             cloth.thickness = between(0.002, 0.01);

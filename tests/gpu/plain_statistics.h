@@ -29,7 +29,8 @@ inline StrainStatistics plain_strain(const SceneDescription& scene, const ClothM
         const auto [i, j] = spring_directions[direction].offset;
         const std::vector<std::array<double, 4>> ratios = rest_ratios(scene.cloths[0]);
         const double k = family == SpringFamily::shear ? stiffness.shear * (dx * dx + dy * dy) / (2 * dx * dy)
-                                                       : stiffness.stretch * (j == 0 ? dy / dx : dx / dy);
+                         : j == 0                      ? stiffness.stretch.warp * dy / dx
+                                                       : stiffness.stretch.weft * dx / dy;
         for (int row = 0; row < model.grid.size().y; ++row)
             for (int column = 0; column < model.grid.size().x; ++column) {
                 if (column + i < 0 || column + i >= model.grid.size().x || row + j >= model.grid.size().y) continue;
@@ -75,7 +76,8 @@ class PlainBending {
         : cloth_(scene.cloths[0]), model_(model), state_(state) {}
 
     double energy() const {
-        const double dx = model_.spacing[0], dy = model_.spacing[1], rigidity = cloth_.stiffness.bend;
+        const double dx = model_.spacing[0], dy = model_.spacing[1];
+        const Rigidity& rigidity = cloth_.stiffness.bend;
         double doubled = 0;
         for (int y = 0; y < model_.grid.size().y; ++y)
             for (int x = 0; x < model_.grid.size().x; ++x) {
@@ -84,14 +86,14 @@ class PlainBending {
                 const double along_row = std::min(share(x, y, 1, 0), share(x, y, -1, 0)),
                              along_column = std::min(share(x, y, 0, 1), share(x, y, 0, -1));
                 if (along_row > 0)
-                    doubled += rigidity * dy / (dx * dx * dx) * along_row *
+                    doubled += rigidity.warp * dy / (dx * dx * dx) * along_row *
                                squared_beyond(edge(x, y, 1, 0).plus(edge(x, y, -1, 0), 1), row, column);
                 if (along_column > 0)
-                    doubled += rigidity * dx / (dy * dy * dy) * along_column *
+                    doubled += rigidity.weft * dx / (dy * dy * dy) * along_column *
                                squared_beyond(edge(x, y, 0, 1).plus(edge(x, y, 0, -1), 1), row, column);
                 if (!has(x + 1, y + 1) || model_.grid.cell(x, y) != (upper_triangle | lower_triangle)) continue;
                 const PlainEdge upper = edge(x, y, 1, 0), lower = edge(x, y + 1, 1, 0);
-                doubled += 2 * rigidity / (dx * dy) * double{shares(x, y).z} *
+                doubled += 2 * rigidity.twist / (dx * dy) * double{shares(x, y).z} *
                            squared_beyond(upper.plus(lower, -1), upper.plus(lower, 1),
                                           edge(x, y, 0, 1).plus(edge(x + 1, y, 0, 1), 1));
             }

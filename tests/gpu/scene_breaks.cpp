@@ -30,7 +30,7 @@ void no_wind(SceneDescription& scene) { scene.wind.velocity = {}; }
 /// Springs are as soft as if k h^2 were k h with 1000 substeps a second.
 void springs_a_thousand_times_too_soft(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) {
-        cloth.stiffness.stretch /= 1000;
+        cloth.stiffness.stretch *= 1e-3;
         cloth.stiffness.shear /= 1000;
     }
 }

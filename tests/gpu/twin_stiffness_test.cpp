@@ -71,7 +71,7 @@ double stretch_of_chain(const Cloth& cloth, double factor) {
     const double dy = cloth.size[1] / n;
     double longer = 0;
     for (int j = 1; j <= n; ++j)
-        longer += cloth.areal_density * 9.81 * dy * (n - j + 0.5) / (factor * cloth.stiffness.stretch) * dy;
+        longer += cloth.areal_density * 9.81 * dy * (n - j + 0.5) / (factor * cloth.stiffness.stretch.weft) * dy;
     return longer;
 }
 

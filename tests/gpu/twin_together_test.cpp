@@ -49,7 +49,7 @@ SceneDescription unlike(SceneDescription scene) {
     for (Cloth& cloth : scene.cloths) {
         cloth.size = {cloth.size[0] * by, cloth.size[1] / by};
         cloth.areal_density *= by;
-        cloth.stiffness.stretch /= by * by;
+        cloth.stiffness.stretch *= 1 / (by * by);
         cloth.stiffness.shear *= by;
         cloth.stiffness.bend *= by;
         cloth.stiffness.compression /= by;

@@ -50,12 +50,13 @@ TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForces) {
     Cloth& cloth = scene.cloths[0];
     cloth.pins = {test::pin_box(3, 0, 5, 1)};
     cloth.holes = {{{2, 3}, {5, 6}}, {{9, 7}, {13, 10}}, {{8, 3}, {9, 4}}};  // the last is one cell
-    for (const Stiffness& stiffness : {Stiffness{false, 80, 0, 0}, Stiffness{false, 80, 30, 0},
-                                       Stiffness{false, 0, 0, 1e-2}, Stiffness{false, 80, 30, 1e-2}}) {
+    for (const Stiffness& stiffness :
+         {Stiffness{false, 80, 0, 0}, Stiffness{false, 80, 30, 0}, Stiffness{false, 0, 0, 1e-2},
+          Stiffness{false, 80, 30, 1e-2}, Stiffness{false, {80, 20}, 30, {1e-2, 2e-3, 5e-3}}}) {
         cloth.stiffness = stiffness;
         const double error = force_error(scene);
         std::printf("[ measured ] stretch %g, shear %g, bend %g: largest error of a force %.1e of the largest\n",
-                    stiffness.stretch, stiffness.shear, stiffness.bend, error);
+                    stiffness.stretch.warp, stiffness.shear, stiffness.bend.warp, error);
         EXPECT_LE(error, 1e-5);
     }
 }
@@ -87,7 +88,8 @@ TEST(ExplicitNetworkTest, AStepFeelsTheNetworksForcesWhereCellsDiffer) {
         cloth.cell_stiffness.push_back(std::uniform_real_distribution<float>(0.1f, 1)(random));
         cloth.cell_density.push_back(std::uniform_real_distribution<float>(1, 5)(random));
     }
-    for (const Stiffness& stiffness : {Stiffness{false, 80, 30, 0}, Stiffness{false, 0, 0, 1e-2}}) {
+    for (const Stiffness& stiffness : {Stiffness{false, 80, 30, 0}, Stiffness{false, 0, 0, 1e-2},
+                                       Stiffness{false, {80, 20}, 30, {1e-2, 2e-3, 5e-3}}}) {
         cloth.stiffness = stiffness;
         EXPECT_LE(force_error(scene), 1e-5);
     }

@@ -100,7 +100,8 @@ TEST(LineTest, AHangingSheetStretchesByItsTension) {
             const double dy = model.cloths[0].spacing[1];
             const double length = test::distance(test::position_of(twin.cloth(0), grid.particle(column, row)),
                                                  test::position_of(twin.cloth(0), grid.particle(column, row + 1)));
-            const double expected = cloth.areal_density * 9.81 * (links - row - 0.5) * dy / cloth.stiffness.stretch;
+            const double expected =
+                cloth.areal_density * 9.81 * (links - row - 0.5) * dy / cloth.stiffness.stretch.weft;
             worst = std::max(worst, std::abs((length / dy - 1) / expected - 1));
         }
     std::printf("[ measured ] worst relative error of a link's strain: %.2e\n", worst);
@@ -121,7 +122,7 @@ TEST(LineTest, AChainHangsAsTheElasticCatenary) {
     const SimulationModel model(scene);
     Twin twin(model);
     for (std::uint32_t frame = 1; frame <= 600; ++frame) twin.run_frame(frame);
-    const double elastic_length = cloth.stiffness.stretch / (cloth.areal_density * 9.81);
+    const double elastic_length = cloth.stiffness.stretch.warp / (cloth.areal_density * 9.81);
     const auto curve = closed_forms::elastic_catenary(0.6, 1.0, elastic_length);
     double sum = 0;
     for (std::uint32_t p = 0; p <= links; ++p) {

@@ -105,7 +105,7 @@ Vec3 tip_displacement(const SceneDescription& scene) {
             moment +=
                 cloth.areal_density * flat * (k + 1 < columns ? 1 : 0.5) * scene.gravity[1] * (at(k)[0] - at(joint)[0]);
         // An element's stiffness is B/l^3 of flat cloth, for a difference of an angle times the chord.
-        const double turn = moment * flat * flat * flat / (cloth.stiffness.bend * chord * chord);
+        const double turn = moment * flat * flat * flat / (cloth.stiffness.bend.warp * chord * chord);
         const Vec3 arm = minus(at(columns - 1), at(joint));
         tip = plus(tip, {-turn * arm[1], turn * arm[0], 0});
     }

@@ -179,7 +179,7 @@ Overhang overhang(std::uint32_t segments, double gamma, double strain) {
     const double weight = density * 9.81;  // N/m^2
     cloth.stiffness.bend = weight * length * length * length / gamma;
     cloth.stiffness.stretch = weight * length / strain;
-    cloth.stiffness.shear = 0.1 * cloth.stiffness.stretch;
+    cloth.stiffness.shear = 0.1 * cloth.stiffness.stretch.warp;
     cloth.pins = {test::pin_box(0, 0, 1, 1)};
     const SpringNetwork network(scene, 0);
     const StaticResult result = find_equilibrium(network);

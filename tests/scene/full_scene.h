@@ -17,7 +17,7 @@ inline constexpr const char* full_scene =
   "cloths": [
     {"name": "banner", "grid": [96, 64], "size": [1.5, 2.5],
      "placement": {"origin": [0.25, 20, 0], "u": [0, 0, 2], "v": [0, -3, 0], "scale": [1.5, 0.5], "jitter": 0.001, "seed": 3},
-     "fabric": "denim", "areal_density": 0.15, "stiffness": {"stretch": 2000, "shear": 150, "bend": 1e-5},
+     "fabric": "denim", "areal_density": 0.15, "stiffness": {"stretch": {"warp": 2000, "weft": 1500}, "shear": 150, "bend": {"warp": 1e-5, "weft": 2e-5, "twist": 3e-5}},
      "damping": 0.1, "friction": 0.35, "thickness": 0.004, "contact": "particles", "self_collision": {"thickness": 0.006, "friction": 0.25}, "velocity": [1, 2, 3],
      "holes": [[[40, 20], [50, 30]]],
      "pins": [{"edge": "bottom"},

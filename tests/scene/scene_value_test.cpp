@@ -58,7 +58,7 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.size, (std::array<double, 2>{1.5, 2.5}));
     EXPECT_EQ(cloth.placement, (Placement{{0.25, 20, 0}, {0, 0, 1}, {0, -1, 0}, {1.5, 0.5}, 0.001, 3}));
     EXPECT_EQ(cloth.areal_density, 0.15);
-    EXPECT_EQ(cloth.stiffness, (Stiffness{false, 2000, 150, 1e-5}));
+    EXPECT_EQ(cloth.stiffness, (Stiffness{false, {2000, 1500}, 150, {1e-5, 2e-5, 3e-5}}));
     EXPECT_EQ(cloth.damping, 0.1);
     EXPECT_EQ(cloth.friction, 0.35);
     EXPECT_EQ(cloth.thickness, 0.004);
@@ -95,8 +95,7 @@ TEST(SceneValues, FilesOfTheFullScene) {
     // The picture's cells are 0, 1, 1, 1 over 1, 0.4, 1, 0.
     const Cloth& mapped = scene.cloths[3];
     EXPECT_EQ(mapped.holes, (std::vector<IndexBox>{{{0, 0}, {1, 1}}, {{1, 1}, {2, 2}}, {{3, 1}, {4, 2}}}));
-    EXPECT_EQ(mapped.stiffness.stretch, 2 * Stiffness{}.stretch) << "the stiffest cell's";
-    EXPECT_EQ(mapped.stiffness.bend, 2 * Stiffness{}.bend);
+    EXPECT_EQ(mapped.stiffness.stretch, WarpWeft(2 * Stiffness{}.stretch.warp)) << "the stiffest cell's";
     EXPECT_EQ(mapped.cell_stiffness, (std::vector<float>{0.25f, 1, 1, 1, 1, 0.55f, 1, 0.25f}));
     EXPECT_EQ(mapped.areal_density, 0.5 * Cloth{}.areal_density) << "the lightest cell's";
     EXPECT_EQ(mapped.cell_density, (std::vector<float>{6, 1, 1, 1, 1, 4, 1, 6}));
@@ -126,6 +125,19 @@ TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {
     EXPECT_EQ(heavy.areal_density, silk.areal_density);
     EXPECT_EQ(heavy.friction, 1);
     EXPECT_TRUE(scene_of(R"({"cloths": [{"fabric": "denim", "stiffness": "rigid"}]})").cloths[0].stiffness.rigid);
+}
+
+TEST(SceneValues, WarpAndWeftMayDiffer) {
+    const auto stiffness = [](const std::string& keys) {
+        return scene_of(R"({"cloths": [{"fabric": "silk", "stiffness": {)" + keys + "}}]}").cloths[0].stiffness;
+    };
+    const Stiffness silk = find_fabric("silk")->stiffness;
+    EXPECT_EQ(stiffness(R"("stretch": 500)").stretch, (WarpWeft{500, 500}));
+    EXPECT_EQ(stiffness(R"("stretch": {"warp": 500})").stretch, (WarpWeft{500, silk.stretch.weft}));
+    EXPECT_EQ(stiffness(R"("stretch": {"warp": 500, "weft": 0})").stretch, (WarpWeft{500, 0}));
+    EXPECT_EQ(stiffness(R"("bend": 1e-5)").bend, (Rigidity{1e-5, 1e-5, 1e-5}));
+    EXPECT_EQ(stiffness(R"("bend": {"warp": 4e-6, "weft": 1e-6})").bend, (Rigidity{4e-6, 1e-6, 2e-6}));
+    EXPECT_EQ(stiffness(R"("bend": {"warp": 4e-6, "weft": 1e-6, "twist": 0})").bend, (Rigidity{4e-6, 1e-6, 0}));
 }
 
 TEST(SceneValues, WithoutFramesItMoves) { EXPECT_EQ(scene_of(R"({"cloths": [{}]})").time, (TimeSettings{60, 121})); }

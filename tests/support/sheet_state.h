@@ -104,7 +104,7 @@ inline Energy energy_of(const SimulationModel& scene, std::size_t cloth, const T
                                model.stiffness_constant.rest_length[direction];
         energy.elastic += 0.5 * share * model.scheme.used_stiffness[direction] * stretch * stretch;
     });
-    const double wanted = scene.scene.cloths[cloth].stiffness.bend;
+    const double wanted = scene.scene.cloths[cloth].stiffness.bend.largest();
     const double used = wanted > 0 ? model.scheme.used_bend / wanted : 0;
     for_bends(model, [&](std::size_t first, std::size_t middle, std::size_t third, std::size_t axis, double share) {
         const Vec3 a = position_of(state, first), b = position_of(state, middle), c = position_of(state, third);

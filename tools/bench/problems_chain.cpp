@@ -248,7 +248,7 @@ Problem catenary(bool is_short) {
         using namespace closed_forms;
         const Cloth& cloth = run.scene.cloths[0];
         const std::uint32_t links = cloth.grid[0] - 1;
-        const double elastic_length = cloth.stiffness.stretch / (cloth.areal_density * gravity);
+        const double elastic_length = cloth.stiffness.stretch.weft / (cloth.areal_density * gravity);
         const Catenary elastic = elastic_catenary(span, 1, elastic_length), stiff = closed_forms::catenary(span, 1);
         double squares = 0, stiff_squares = 0, lowest = 0;
         for (std::uint32_t k = 0; k <= links; ++k) {

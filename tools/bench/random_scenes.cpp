@@ -77,7 +77,7 @@ SceneDescription random_scene(std::uint32_t seed) {
     Cloth& cloth = scene.cloths[0];
     cloth.areal_density = draw.scaled(0.08, 0.5);
     cloth.stiffness.stretch = draw.scaled(500, 10000);
-    cloth.stiffness.shear = draw.scaled(0.02, 0.3) * cloth.stiffness.stretch;
+    cloth.stiffness.shear = draw.scaled(0.02, 0.3) * cloth.stiffness.stretch.warp;
     cloth.damping = draw.between(0, 2);
     cloth.friction = draw.between(0, 0.8);
     set_situation(scene, draw);

@@ -112,11 +112,43 @@ struct Placement {
     bool operator==(const Placement&) const = default;
 };
 
+/// What a fabric has along its warp, the threads along u (growing column), and along its weft, those along v. A single
+/// number is both.
+struct WarpWeft {
+    double warp, weft;
+    constexpr WarpWeft(double both = 0) : WarpWeft(both, both) {}
+    constexpr WarpWeft(double along_warp, double along_weft) : warp(along_warp), weft(along_weft) {}
+    constexpr double along(std::size_t axis) const { return axis == 0 ? warp : weft; }  ///< 0: rows, 1: columns
+    constexpr double least() const { return std::min(warp, weft); }
+    constexpr double largest() const { return std::max(warp, weft); }
+    constexpr WarpWeft& operator*=(double factor) {
+        warp *= factor, weft *= factor;
+        return *this;
+    }
+    bool operator==(const WarpWeft&) const = default;
+};
+
+/// N m: the rigidities of a sheet that bends along its warp, along its weft, and that twists. A single number is that
+/// of a sheet as stiff in every direction.
+struct Rigidity : WarpWeft {
+    double twist;
+    constexpr Rigidity(double all = 0) : Rigidity(all, all, all) {}
+    constexpr Rigidity(double along_warp, double along_weft, double of_twist)
+        : WarpWeft(along_warp, along_weft), twist(of_twist) {}
+    constexpr double largest() const { return std::max(WarpWeft::largest(), twist); }
+    constexpr Rigidity& operator*=(double factor) {
+        WarpWeft::operator*=(factor);
+        twist *= factor;
+        return *this;
+    }
+    bool operator==(const Rigidity&) const = default;
+};
+
 struct Stiffness {
-    bool rigid = false;        ///< stretch and shear are inextensible, like the springs of the 2004 slides
-    double stretch = 1000.0;   ///< N/m
-    double shear = 100.0;      ///< N/m
-    double bend = 0.0;         ///< N m
+    bool rigid = false;         ///< stretch and shear are inextensible, like the springs of the 2004 slides
+    WarpWeft stretch = 1000.0;  ///< N/m
+    double shear = 100.0;       ///< N/m
+    Rigidity bend = 0.0;
     double compression = 1.0;  ///< share of stretch and shear that acts where springs are pushed together
     bool operator==(const Stiffness&) const = default;
 };
