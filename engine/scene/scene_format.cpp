@@ -356,7 +356,8 @@ const Object<SolverSettings> solver{
         {"tolerance", &SolverSettings::tolerance, number(not_negative),
          "Largest stretch error: RMS over the stretch springs of strain - tension/(stiffness length), of springs "
          "pushed together compression times the strain, tension being "
-         "the force that the solver applied. 0: no promise. A substep's iterations end once it is met (so `iterations` "
+         "the force that the solver applied. 0: no promise, by method auto 0.01. A substep's iterations end once it is "
+         "met (so `iterations` "
          "is then the most that may be needed); a frame that misses it ends the run with exit code 8."},
         {"tolerance_worst", &SolverSettings::tolerance_worst, number(not_negative),
          "Method auto: largest stretch error of a single spring in a frame. 0: 0.1."},
