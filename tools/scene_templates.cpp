@@ -13,7 +13,7 @@ constexpr std::string_view table =
     "grid": [61, 61],                             // particles: columns, rows
     "size": [1.6, 1.6],                           // metres along columns, rows
     "placement": {"origin": [-0.8, 0.95, -0.8], "u": [1, 0, 0], "v": [0, 0, 1]},  // first particle; columns, rows
-    "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
+    "fabric": "cotton",                           // or silk, denim, wool ...; "stiffness" and others override it
     "damping": 1.5,                               // 1/s
     "self_collision": true,                       // its folds never pass through each other; costs time
     "thickness": 0.01                             // kept from colliders
@@ -40,7 +40,7 @@ constexpr std::string_view flag =
     "grid": [46, 31],                             // particles: columns, rows
     "size": [1.5, 1.0],                           // metres along columns, rows
     "placement": {"origin": [-0.75, 2.1, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
-    "fabric": "silk",                             // or cotton, denim, leather; "stiffness" and others override it
+    "fabric": "silk",                             // or cotton, denim, wool ...; "stiffness" and others override it
     "damping": 0.3,                               // 1/s
     "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [{"edge": "left"}],                   // "left" is column 0, "top" is row 0
@@ -62,7 +62,7 @@ constexpr std::string_view curtain =
     "grid": [49, 41],                             // particles: columns, rows
     "size": [1.8, 1.5],                           // metres along columns, rows
     "placement": {"origin": [-0.9, 1.75, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
-    "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
+    "fabric": "cotton",                           // or silk, denim, wool ...; "stiffness" and others override it
     "damping": 0.6,                               // 1/s
     "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [                                     // [column, row]; a path moves a pin: t in seconds
@@ -89,7 +89,7 @@ constexpr std::string_view ball =
     "grid": [49, 49],                             // particles: columns, rows
     "size": [1.6, 1.6],                           // metres along columns, rows
     "placement": {"origin": [-0.8, 1.2, -0.8], "u": [1, 0, 0], "v": [0, 0, 1]},  // first particle; columns, rows
-    "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
+    "fabric": "cotton",                           // or silk, denim, wool ...; "stiffness" and others override it
     "damping": 1.5,                               // 1/s
     "self_collision": true,                       // its folds never pass through each other; costs time
     "thickness": 0.01,                            // kept from colliders
@@ -121,7 +121,7 @@ constexpr std::string_view cut =
     "grid": [49, 41],                             // particles: columns, rows
     "size": [1.2, 1.0],                           // metres along columns, rows
     "placement": {"origin": [-0.6, 1.7, 0], "u": [1, 0, 0], "v": [0, -1, 0]},  // first particle; columns, rows
-    "fabric": "cotton",                           // or silk, denim, leather; "stiffness" and others override it
+    "fabric": "cotton",                           // or silk, denim, wool ...; "stiffness" and others override it
     "damping": 0.5,                               // 1/s
     "self_collision": true,                       // its folds never pass through each other; costs time
     "pins": [{"edge": "top"}]                     // "left" is column 0, "top" is row 0

@@ -1,4 +1,5 @@
-// `drape bench accuracy` runs as a user runs it: files, exit codes, and cases that a second run does not do again.
+// `drape bench accuracy` and `drape bench fabric` run as a user runs them: files, exit codes, and cases that a second
+// run does not do again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -196,6 +197,21 @@ TEST(BenchSpeed, RefusesWhatItCannotDo) {
     const Outcome none = drape({"bench", "speed", "-q", "--filter", "skip/pictures", "--scenes", "no such folder"});
     EXPECT_EQ(none.code, 0) << none.err;
     EXPECT_THAT(none.out, HasSubstr("Cases were left out"));
+}
+
+TEST(BenchFabric, MeasuresWhatTheFabricIs) {
+    const Outcome outcome = drape({"bench", "fabric", "--fabric", "denim", "--grid", "17", "--validate"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("denim       17    22.5"), Not(HasSubstr("silk"))));
+    const std::string lengths = outcome.out.substr(outcome.out.rfind("denim"));
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(lengths, found, std::regex("denim +([0-9.]+) +([0-9.]+) +([0-9.]+) +([0-9.]+)")));
+    // Peirce's formula is within 2 % of the elastica, and a strip of 32 links within 1 %.
+    EXPECT_NEAR(std::stod(found[1]) / std::stod(found[2]), 1, 0.03) << lengths;
+    EXPECT_NEAR(std::stod(found[3]) / std::stod(found[4]), 1, 0.03) << lengths;
+    const Outcome unknown = drape({"bench", "fabric", "--fabric", "paper"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("--fabric 'paper' is none of the fabrics"));
 }
 
 }  // namespace

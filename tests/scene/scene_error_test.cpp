@@ -135,7 +135,8 @@ const Malformed key_cases[] = {
     {"Fabric", cloth("\"fabric\": \"cottn\""), {"2:11: /cloths/0/fabric: expected \"cotton\", got \"cottn\""}},
     {"UnknownFabric",
      cloth("\"fabric\": \"paper\""),
-     {"2:11: /cloths/0/fabric: expected \"cotton\" or \"silk\" or \"denim\" or \"leather\", got \"paper\""}},
+     {"2:11: /cloths/0/fabric: expected \"cotton\" or \"silk\" or \"denim\" or \"wool\" or \"jersey\" or \"canvas\" or "
+      "\"leather\", got \"paper\""}},
     {"PointerIsEscaped",
      scene("\"time\": {\"a/b~c\": 3}"),
      {"2:10: /time/a~1b~0c: expected one of fps, frames, got the unknown key \"a/b~c\""}},

@@ -1,6 +1,6 @@
-// The benchmarks: `drape bench accuracy` and `drape bench speed`. Each runs its cases, the important ones
-// first, and writes what was asked for at the end, each file whole. All throw UsageError, OutputError, DeviceError and
-// Stopped.
+// The benchmarks: `drape bench accuracy`, `drape bench speed` and `drape bench fabric`. Each runs its cases, the
+// important ones first, and writes what was asked for at the end, each file whole. All throw UsageError, OutputError,
+// DeviceError and Stopped.
 #pragma once
 
 #include <cstdint>
@@ -35,5 +35,13 @@ struct SpeedRequest : SelectedCases {
 };
 
 BenchSummary run_speed(const SpeedRequest& request);
+
+/// The fabrics as a laboratory measures them.
+struct FabricRequest : BenchRequest {
+    std::string fabric;      ///< empty: all
+    std::uint32_t grid = 0;  ///< particles a side; 0: 65 and 97
+};
+
+BenchSummary run_fabric(const FabricRequest& request);
 
 }  // namespace drape::bench

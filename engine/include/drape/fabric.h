@@ -16,33 +16,38 @@ struct Fabric {
     std::string_view source;  ///< says where the numbers come from, and which are estimated
 };
 
-// The measured values are the first measuring points of the material files published with H. Wang, J. F. O'Brien, R.
-// Ramamoorthi, "Data-driven elastic models for cloth: modeling and measurement", ACM Transactions on Graphics 30(4):71,
-// 2011. One momme is 4.34 g/m^2. A homogeneous sheet bends with E t^3 / 12 and stretches with E t.
+// engine/docs/fabrics.md has the measurements, their tables and units, and what was made of them. One momme is 4.34
+// g/m^2.
 inline constexpr Fabric fabrics[] = {
     {"cotton",
      0.22,
-     {false, 4070, 60, 1.25e-4},
+     {false, {4040, 4003}, 30, {31.4e-6, 31.4e-6, 22.6e-6}},
      0.5,
-     "Woven trouser cloth (65 % cotton): density, stretch and bend as measured by Wang et al. 2011 (royal-target); "
-     "shear and friction estimated."},
-    {"silk",
-     0.069,
-     {false, 2000, 20, 4e-6},
-     0.25,
-     "Habutai of 16 momme, which is its density; stretch, shear, bend and friction estimated."},
+     "Trousers of 65 % cotton, measured by Wang et al. 2011 (royal-target); friction estimated."},
+    {"silk", 0.069, {false, 2000, 20, 4e-6}, 0.25, "Habutai of 16 momme, which is its density; the rest estimated."},
     {"denim",
      0.324,
-     {false, 2030, 120, 6.4e-5},
+     {false, {1993, 376}, 35, {16.0e-6, 24.2e-6, 16.6e-6}},
      0.6,
-     "11 oz: density, stretch and bend as measured by Wang et al. 2011 (11oz-black-denim); shear in the range of 84 to "
-     "191 N/m that Journal of Textiles 2016, 4614168, measured (KES, table 5); friction estimated."},
+     "Jeans of 99 % cotton, 11 oz, measured by Wang et al. 2011 (11oz-black-denim); friction estimated."},
+    {"wool",
+     0.264,
+     {false, 4900, 48, 13.3e-6},
+     0.5,
+     "Worsted suiting for winter, the mean of 214 measured by Kawabata 1980; friction estimated."},
+    {"jersey",
+     0.187,
+     {false, {51, 15}, 18, {5.8e-6, 3.6e-6, 7.7e-6}},
+     0.5,
+     "Interlock knit of 60 % cotton, wales along the warp, measured by Wang et al. 2011 (gray-interlock); friction "
+     "estimated."},
+    {"canvas", 0.34, {false, 5000, 150, 2e-4}, 0.6, "Cotton duck of 10 oz, which is its density; the rest estimated."},
     {"leather",
      0.56,
-     {false, 8000, 3000, 4.3e-4},
+     {false, 6000, 3000, 4.5e-5},
      0.6,
-     "Sheep garment leather 0.8 mm thick (Memon et al., Materials 14(16):4553, 2021: 0.64 to 0.96 mm); the rest "
-     "estimated, as a homogeneous sheet of 10 MPa and 700 kg/m^3."},
+     "Sheep garment leather 0.8 mm thick: bend by the drape that Memon et al. 2021 measured; the rest estimated, as a "
+     "homogeneous sheet of 10 MPa and 700 kg/m^3."},
 };
 
 /// Returns null when no fabric has that name.
