@@ -1,13 +1,11 @@
-// This pass finds the force of the wind: each particle gathers a third of the force, and of the drag, on each of its up
-// to six triangles. An invocation goes down some adjacent columns of particles and hands the triangles between two rows
-// on to the lower one, so that most are computed once and not for each of their corners. Every sum keeps the order of
-// triangle_around. Where `masked`, the cell image says which triangles exist (holes, cuts). Where gravity changes, what
-// it is more than at the start is a force here, too.
+// This pass finds the force of the air on each particle, which is that on its up to four quarters of cells. An
+// invocation goes down some adjacent columns of particles and keeps the rows above and below, so that most particles
+// are loaded once. Where `masked`, an image says which quarters and neighbours a particle has (holes, cuts). Where
+// gravity changes, what it is more than at the start is a force here, too.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
 #include "include/push.h"
-#include "include/triangles.h"
 #include "include/wind.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -24,7 +22,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 VECTOR_OUT(2, wind_force);
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 layout(constant_id = 24) const bool masked = false;
-layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D cells;
+layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D air;
 
 struct Member {
     vec3 position, displacement;
@@ -32,11 +30,6 @@ struct Member {
 /// A row of the invocation's particles, with the one before and the one after them.
 struct Row {
     Member members[most_columns + 2];
-};
-/// The force that the triangles between two rows give to each of their corners. Cells are counted from the one before
-/// the invocation's first particle.
-struct Shares {
-    WindForce upper[most_columns + 1], lower[most_columns + 1];
 };
 
 vec3 wind_velocity, more_gravity;
@@ -55,46 +48,26 @@ Row load_row(int y) {
     return row;
 }
 
-/// Returns bits of the triangles of a cell that exist (triangle_around).
-uint triangles_of(ivec2 cell) {
-    if (!cell_inside(cell, push.grid)) return 0u;
-    if (masked) return imageLoad(cells, placed_cell(cell)).x;
-    return 3u;
+vec3 edge_between(Member from, Member to) {
+    precise vec3 edge = to.position - from.position;
+    return edge;
 }
 
-/// Returns a triangle's share; a triangle that does not exist adds nothing to a sum, not even a zero's sign.
-WindForce share_of(bool exists, Member a, Member b, Member c) {
-    WindForce share = wind_share(a.position, b.position, c.position, a.displacement, b.displacement, c.displacement,
-                                 push.inverse_step, wind_velocity, push.drag_coefficient, push.lift_coefficient,
-                                 push.area_limit);
-    share.force = exists ? share.force : empty_sum();
-    share.drag = exists ? share.drag : -0.0f;
-    return share;
-}
-
-/// Returns the shares of the triangles between row `y` and the one below.
-Shares shares_between(Row above, Row below, int y) {
-    Shares shares;
-    for (int c = 0; c < strip_columns + 1; ++c) {
-        uint bits = triangles_of(ivec2(first_column - 1 + c, y));
-        // The corners are in the order of triangle_corner.
-        shares.upper[c] = share_of((bits & 1u) != 0u, above.members[c], above.members[c + 1], below.members[c]);
-        shares.lower[c] = share_of((bits & 2u) != 0u, above.members[c + 1], below.members[c + 1], below.members[c]);
-    }
-    return shares;
-}
-
-void store_row(Shares above, Shares below, int y) {
+void store_row(Row above, Row row, Row below, int y) {
     for (int c = 0; c < strip_columns; ++c) {
-        WindForce sum = WindForce(empty_sum(), 0.0f);
-        sum = add_share(sum, above.lower[c]);
-        sum = add_share(sum, above.upper[c + 1]);
-        sum = add_share(sum, above.lower[c + 1]);
-        sum = add_share(sum, below.upper[c]);
-        sum = add_share(sum, below.lower[c]);
-        sum = add_share(sum, below.upper[c + 1]);
         ivec2 texel = ivec2(first_column + c, y);
         if (texel.x >= push.grid.x) continue;
+        Member own = row.members[c + 1];
+        AirEdges edges = AirEdges(edge_between(own, row.members[c]), edge_between(own, row.members[c + 2]),
+                                  edge_between(own, above.members[c + 1]), edge_between(own, below.members[c + 1]));
+        vec3 relative = relative_wind(wind_velocity, own.displacement, push.inverse_step);
+        uint felt = border_air(texel, push.grid);
+        if (masked) {
+            felt = LOAD(air, texel).x;
+            edges = own_edges(edges, felt, relative, push.spacing);
+        }
+        WindForce sum = particle_wind_force(edges, felt, relative, push.inverse_step, push.drag_coefficient,
+                                            push.lift_coefficient, push.spacing);
         if (weighs) sum.force = add_weight(sum.force, more_gravity, push.inner_mass, LOAD(position, texel).w);
         STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
     }
@@ -107,14 +80,12 @@ void main() {
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
     int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
     if (first_column >= push.grid.x || y >= end) return;
-    Row row = load_row(y);
-    Shares above = shares_between(load_row(y - 1), row, y - 1);
+    Row above = load_row(y - 1), row = load_row(y);
     for (;;) {
-        Row next = load_row(y + 1);
-        Shares below = shares_between(row, next, y);
-        store_row(above, below, y);
-        row = next;
-        above = below;
+        Row below = load_row(y + 1);
+        store_row(above, row, below, y);
+        above = row;
+        row = below;
         ++y;
         if (y >= end) break;
     }

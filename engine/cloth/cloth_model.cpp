@@ -58,10 +58,9 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
             static_cast<float>(1.0 / h),
             static_cast<float>(half_density * (w.drag - w.lift)),
             static_cast<float>(half_density * w.lift),
-            static_cast<float>(spacing[0] * spacing[1]),
+            {static_cast<float>(spacing[0]), static_cast<float>(spacing[1])},
             0,
-            static_cast<float>(inner_mass),
-            0};
+            static_cast<float>(inner_mass)};
     // Another round cannot improve contacts that are shallower than a few roundings of the coordinates.
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
                   static_cast<float>(2.4e-7 * largest_coordinate(cloth)), static_cast<float>(recovery_speed * h)},

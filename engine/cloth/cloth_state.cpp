@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "cloth/air.h"
 #include "cloth/cloth_statistics.h"
 #include "shared/bend_types.h"
 #include "shared/cut_types.h"
@@ -21,6 +22,8 @@ using Bytes = std::vector<std::byte>;
 bool always(Context) { return true; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
+bool windy(Context c) { return c.model.windy; }
+bool windy_and_masked(Context c) { return windy(c) && masked(c); }
 bool stiffens(Context c) { return c.cloth.stiffens; }
 bool rests_bent(Context c) { return c.cloth.rests_bent(); }
 bool adaptive(Context c) { return c.model.adaptive(); }
@@ -106,7 +109,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},
-        {Field::wind_force, "wind force", stored, vector, frame, [](Context c) { return c.model.windy; }, particles},
+        {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},
         {Field::lifted, "lifted", stored, vector, frame, cut_by_edges, particles},
         {Field::support, "support", image, vector, state, meets_on_colliders, particles},
@@ -121,6 +124,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::bend_targets, "bend targets", image, vector, frame, rests_bent, target_list},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
+        {Field::air, "air", image, integer, constant, windy_and_masked, particles,
+         [](Context c) { return bytes_of_list(air_bits(c.topology)); }},
         {Field::tear_limits, "tear limits", image, vector, constant,
          [](Context c) { return !c.cloth.tear_limits.empty(); }, particles,
          [](Context c) { return bytes_of_list(c.cloth.tear_limits); }},

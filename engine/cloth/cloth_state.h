@@ -48,6 +48,7 @@ enum class Field : std::uint8_t {
     bend_targets,              ///< what its bending elements are at rest, in the substep, m (bend_target.h)
     mass_share,                ///< mass over an inner particle's
     cells,                     ///< one texel per cell: bits 1 and 2 are set for the triangles that exist
+    air,                       ///< by particle, what the wind acts on (cloth/air.h)
     tear_limits,               ///< what springs along row and column bear (cloth/tear.h)
     tension_row,               ///< per direction (tension_of), by first particle, m: extension that would balance the
     tension_column,            ///< tension applied in the substep; carried to the next one (line) or the next iteration

@@ -27,8 +27,7 @@ glsl::StatisticsPush statistics_push(const SimulationModel& model, const ClothMo
         const double stiffness = cloth.scheme.used_stiffness[direction];
         if (stiffness == 0) continue;
         component(push.rest_length, direction) = static_cast<float>(cloth.stiffness_constant.rest_length[direction]);
-        component(push.half_stiffness, direction) =
-            std::isfinite(stiffness) ? static_cast<float>(0.5 * stiffness) : 0.0f;
+        component(push.half_stiffness, direction) = cloth.rigid ? 0.0f : static_cast<float>(0.5 * stiffness);
     }
     if (cloth.bend > 0) {
         const StiffnessConstants& constant = cloth.stiffness_constant;

@@ -6,6 +6,7 @@
 #include "cloth/cut_topology.h"
 #include "control/frame_judgement.h"
 #include "world/collider_pose.h"
+#include "world/motion.h"
 #include "world/weather.h"
 
 namespace drape {
@@ -15,10 +16,6 @@ namespace {
 /// Cloth counts as still below this share of motion_limit.
 constexpr double still_share = 0.01;
 constexpr double rounding = 4 * 0x1p-24;  ///< relative to coordinates
-
-bool constant(const MotionPath& path, double from, double to) {
-    return !path.moves() || to <= path.keys.front().time || from >= path.keys.back().time;
-}
 
 }  // namespace
 
@@ -33,7 +30,7 @@ bool quiet(const SimulationModel& model, std::uint32_t frame) {
     if (!std::ranges::all_of(scene.cloths, keeps_stiffness)) return false;
     if (releases(model, frame) || cutters_active(scene.cutters, from, to)) return false;
     // After the last key, the velocities of pins and surfaces still contain its motion for one step.
-    const auto still = [&](const MotionPath& path) { return constant(path, from - 1 / scene.time.fps, to); };
+    const auto still = [&](const MotionPath& path) { return rests(path, from - 1 / scene.time.fps, to); };
     const auto rests_too = [&](const Collider& each) { return rests(each, from - 1 / scene.time.fps, to); };
     return std::ranges::all_of(scene.colliders, rests_too) &&
            std::ranges::all_of(model.cloths, [&](const ClothModel& cloth) {

@@ -272,7 +272,6 @@ Json::Value frameless_json(const Manifest& manifest) {
     if (manifest.self_collision) json["self_collision"] = self_collision_json(*manifest.self_collision);
     if (!manifest.off_collider_edges.empty())
         json["collider_edges"]["not_covered"] = split_json(manifest.off_collider_edges);
-    if (!manifest.off_wind.empty()) json["wind"]["not_covered"] = split_json(manifest.off_wind);
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);

@@ -75,7 +75,7 @@ struct Manifest {
         std::string reason;
         std::uint32_t enough_substeps = 0;  // enough to follow all of it; 0: none would
     };
-    struct SplitTriangles {  // triangles of a cloth, split by cutters, that contact and wind leave out
+    struct SplitTriangles {  // triangles of a cloth, split by cutters, that contact leaves out
         std::string cloth;
         std::int64_t first_frame = 0;  // the first frame in which some are split
         std::uint64_t count = 0;       // in the last frame
@@ -132,7 +132,6 @@ struct Manifest {
     std::vector<std::string> warnings;  // the warnings that were given, compromises included
     std::optional<SelfCollision> self_collision;
     std::vector<SplitTriangles> off_collider_edges;  // edges of boxes are not kept off these; the earliest first
-    std::vector<SplitTriangles> off_wind;            // the wind does not act on these; the earliest first
     std::vector<Cut> cuts;
     std::vector<FileRecord> files;
     // Calls the visitor for every frame, in order, since a long run's frames are not all in memory. Null: there are

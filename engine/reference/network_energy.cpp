@@ -94,21 +94,17 @@ void SpringNetwork::add_wind_force(std::span<const Vec3> position, std::span<con
                                    std::span<Vec3> force) const {
     if (!wind.blows()) return;
     const Vec3 air = wind_velocity(wind, time);
-    for (const auto& [a, b, c] : triangles) {
-        const Vec3 doubled = cross(position[b] - position[a], position[c] - position[a]);
-        const double doubled_area = length(doubled);
-        if (!(doubled_area > 0)) continue;
-        Vec3 relative = air;
-        for (const std::uint32_t p : {a, b, c}) add_scaled(relative, -1.0 / 3, velocity[p]);
-        const double along = dot(relative, doubled) / doubled_area;
-        const double half_density_area = 0.25 * wind.air_density * doubled_area;
-        const double drag = half_density_area * (wind.drag - wind.lift) * std::abs(along);
-        const double lift =
-            half_density_area * wind.lift * dot(relative, relative) * (along < 0 ? -1 : 1) / doubled_area;
-        for (const std::uint32_t p : {a, b, c}) {
-            add_scaled(force[p], drag / 3, relative);
-            add_scaled(force[p], lift / 3, doubled);
-        }
+    for (const auto& [particle, in_row, in_column] : quarters) {
+        Vec3 normal = cross(position[in_row] - position[particle], position[in_column] - position[particle]);
+        const double cell = length(normal);
+        if (!(cell > 0)) continue;
+        const Vec3 relative = air - velocity[particle];
+        for (double& component : normal) component /= cell;
+        const double along = dot(relative, normal);
+        const double half_density_area = 0.5 * wind.air_density * cell / 4;
+        add_scaled(force[particle], half_density_area * (wind.drag - wind.lift) * std::abs(along), relative);
+        add_scaled(force[particle], half_density_area * wind.lift * dot(relative, relative) * (along < 0 ? -1 : 1),
+                   normal);
     }
 }
 

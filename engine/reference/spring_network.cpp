@@ -94,9 +94,15 @@ SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_in
     hold_pins(cloth, grid);
     add_springs(cloth, grid);
     add_bending(cloth, grid);
-    const std::vector<std::uint32_t> corners = grid.triangle_indices();
-    for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
-        triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
+    for (std::uint32_t row = 0; row + 1 < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column + 1 < grid.columns(); ++column) {
+            if (grid.cell(static_cast<int>(column), static_cast<int>(row)) == 0) continue;
+            for (const std::uint32_t down : {0u, 1u})
+                for (const std::uint32_t right : {0u, 1u})
+                    quarters.push_back({grid.particle(column + right, row + down),
+                                        grid.particle(column + 1 - right, row + down),
+                                        grid.particle(column + right, row + 1 - down)});
+        }
 }
 
 void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
@@ -293,7 +299,7 @@ void add(StableHash& hash, const Wind& wind) {
 
 std::uint64_t SpringNetwork::fingerprint() const {
     StableHash hash;
-    for (const std::size_t count : {mass.size(), pins.size(), springs.size(), bending.size(), triangles.size()})
+    for (const std::size_t count : {mass.size(), pins.size(), springs.size(), bending.size(), quarters.size()})
         hash.add(std::uint64_t{count});
     for (const double m : mass) hash.add(m);
     for (const Vec3& x : rest_position) add(hash, x);
@@ -311,8 +317,8 @@ std::uint64_t SpringNetwork::fingerprint() const {
         for (const double c : element.coefficient) hash.add(c);
         hash.add(element.stiffness);
     }
-    for (const auto& triangle : triangles)
-        for (const std::uint32_t p : triangle) hash.add(std::uint64_t{p});
+    for (const auto& quarter : quarters)
+        for (const std::uint32_t p : quarter) hash.add(std::uint64_t{p});
     add(hash, start_velocity);
     for (const Vec3& velocity : start_velocities) add(hash, velocity);
     add(hash, gravity);

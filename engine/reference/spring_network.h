@@ -85,12 +85,13 @@ struct SpringNetwork {
     std::vector<NetworkPin> pins;
     std::vector<NetworkSpring> springs;
     std::vector<BendingElement> bending;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< triangles that feel wind
-    Vec3 start_velocity{0, 0, 0};                         ///< m/s, of free particles
-    std::vector<Vec3> start_velocities;                   ///< the same by particle; empty: all have start_velocity
-    Vec3 gravity{0, -9.81, 0};                            ///< m/s^2, of the potential energy: that at the start
-    std::vector<VectorKey> gravity_keys;                  ///< m/s^2; empty: it stays
-    double damping = 0;                                   ///< 1/s: acceleration -damping * velocity
+    /// Quarters of cells, which feel wind: their particle, and its neighbours there along the row and the column.
+    std::vector<std::array<std::uint32_t, 3>> quarters;
+    Vec3 start_velocity{0, 0, 0};         ///< m/s, of free particles
+    std::vector<Vec3> start_velocities;   ///< the same by particle; empty: all have start_velocity
+    Vec3 gravity{0, -9.81, 0};            ///< m/s^2, of the potential energy: that at the start
+    std::vector<VectorKey> gravity_keys;  ///< m/s^2; empty: it stays
+    double damping = 0;                   ///< 1/s: acceleration -damping * velocity
     Wind wind;
 
     std::size_t particle_count() const { return mass.size(); }
@@ -115,7 +116,7 @@ struct SpringNetwork {
     std::vector<Vec3> gradient(std::span<const Vec3> position) const;
     /// Returns what gravity is more at a time (s) than at the start, m/s^2.
     Vec3 more_gravity(double time) const;
-    /// Adds the wind's force (N) by the scene's formula per triangle, a third to each corner.
+    /// Adds the wind's force (N) by the scene's formula per quarter of a cell, to its particle.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;
     std::vector<HessianEntry> hessian(std::span<const Vec3> position, HessianForm form) const;

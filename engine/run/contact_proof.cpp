@@ -61,23 +61,18 @@ void describe_contact(Manifest& manifest, const Simulation& simulation, std::spa
     }
     for (const Manifest::SplitTriangles& each : split)
         if (meets_edges(simulation.scene(), each.cloth)) manifest.off_collider_edges.push_back(each);
-    if (simulation.scene().wind.blows()) manifest.off_wind = split;
 }
 
 std::optional<std::string> left_out_triangles(const Manifest& manifest) {
     const bool of_cloths = manifest.self_collision && !manifest.self_collision->not_covered.empty();
-    const bool of_edges = !manifest.off_collider_edges.empty(), of_wind = !manifest.off_wind.empty();
-    if (!of_cloths && !of_edges && !of_wind) return std::nullopt;
-    const auto& split = of_cloths  ? manifest.self_collision->not_covered
-                        : of_edges ? manifest.off_collider_edges
-                                   : manifest.off_wind;
-    const std::string_view contact = of_cloths && of_edges ? "meet no cloth and no edge of a collider"
-                                     : of_cloths           ? "meet no cloth"
-                                     : of_edges            ? "meet no edge of a collider"
-                                                           : "",
-                           both = of_wind && !contact.empty() ? ", and " : "", wind = of_wind ? "feel no wind" : "";
-    return fmt::format("{} that were split from frame {} on {}{}{}; a finer grid makes the strip of them narrower",
-                       triangles_text(split), split.front().first_frame, contact, both, wind);
+    const bool of_edges = !manifest.off_collider_edges.empty();
+    if (!of_cloths && !of_edges) return std::nullopt;
+    const auto& split = of_cloths ? manifest.self_collision->not_covered : manifest.off_collider_edges;
+    const std::string_view contact = of_cloths && of_edges ? "no cloth and no edge of a collider"
+                                     : of_cloths           ? "no cloth"
+                                                           : "no edge of a collider";
+    return fmt::format("{} that were split from frame {} on meet {}; a finer grid makes the strip of them narrower",
+                       triangles_text(split), split.front().first_frame, contact);
 }
 
 std::optional<std::string> lost_proof(const Simulation& simulation) {

@@ -1,5 +1,4 @@
-// Says what a run proved about contact, for which triangles, which ones the wind left out, and what a user can do where
-// the proof failed.
+// Says what a run proved about contact, for which triangles, and what a user can do where the proof failed.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +16,11 @@ namespace drape {
 /// takes effect in the next frame, so one that the last frame found split nothing that was seen.
 std::vector<Manifest::SplitTriangles> split_triangles(std::span<const Manifest::Cut> cuts, std::int64_t last);
 
-/// Writes into the manifest what was proved about contact between cloths, and what contact and wind leave out.
+/// Writes into the manifest what was proved about contact between cloths, and what contact leaves out.
 void describe_contact(Manifest& manifest, const Simulation& simulation, std::span<const Manifest::Cut> cuts);
 
-/// Returns the note about triangles that contact or the wind leaves out, as the manifest says; nothing where there are
-/// none. It is no warning, since a cut has to go through the cells somewhere.
+/// Returns the note about triangles that contact leaves out, as the manifest says; nothing where there are none. It is
+/// no warning, since a cut has to go through the cells somewhere.
 std::optional<std::string> left_out_triangles(const Manifest& manifest);
 
 /// Returns the warning for a run whose cloths touched and may have crossed. Those that started crossed were reported

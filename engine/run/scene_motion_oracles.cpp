@@ -91,29 +91,29 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
 double about_up(const SceneRun& run, const Vec3& v) { return v[up_axis(run.scene.up)]; }
 
 /// Returns the torque of the wind about the vertical through `pole`, N m, by the scene format's force law.
-double wind_torque(const SceneRun& run, const std::vector<std::uint32_t>& corners, std::size_t frame,
-                   const Vec3& pole) {
+double wind_torque(const SceneRun& run, const Grid& grid, std::size_t frame, const Vec3& pole) {
     const Wind& wind = run.scene.wind;
     const Vec3 air = wind_velocity(wind, run.time(frame));
     double torque = 0;
-    for (std::size_t first = 0; first < corners.size(); first += 3) {
-        Vec3 x[3], center{}, velocity{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            x[k] = run.at(frame, 0, corners[first + k]);
-            center = plus(center, times(1.0 / 3, x[k]));
-            velocity = plus(velocity, times(run.scene.time.fps / 6, minus(run.at(frame + 1, 0, corners[first + k]),
-                                                                          run.at(frame - 1, 0, corners[first + k]))));
-        }
-        const Vec3 relative = minus(air, velocity), doubled = cross(minus(x[1], x[0]), minus(x[2], x[0]));
-        const double area = 0.5 * length(doubled);
-        if (area == 0) continue;
-        Vec3 normal = times(0.5 / area, doubled);
-        if (dot(normal, relative) < 0) normal = times(-1, normal);
+    const auto add_quarter = [&](std::uint32_t particle, std::uint32_t in_row, std::uint32_t in_column) {
+        const Vec3 x = run.at(frame, 0, particle),
+                   normal = cross(minus(run.at(frame, 0, in_row), x), minus(run.at(frame, 0, in_column), x));
+        const double area = length(normal) / 4;
+        if (area == 0) return;
+        const Vec3 moved = minus(run.at(frame + 1, 0, particle), run.at(frame - 1, 0, particle));
+        const Vec3 relative = minus(air, times(run.scene.time.fps / 2, moved));
+        const Vec3 unit = times((dot(normal, relative) < 0 ? -0.25 : 0.25) / area, normal);
         const Vec3 force =
-            times(0.5 * wind.air_density * area, plus(times((wind.drag - wind.lift) * dot(relative, normal), relative),
-                                                      times(wind.lift * dot(relative, relative), normal)));
-        torque += about_up(run, cross(minus(center, pole), force));
-    }
+            times(0.5 * wind.air_density * area, plus(times((wind.drag - wind.lift) * dot(relative, unit), relative),
+                                                      times(wind.lift * dot(relative, relative), unit)));
+        torque += about_up(run, cross(minus(x, pole), force));
+    };
+    for (std::uint32_t row = 0; row + 1 < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column + 1 < grid.columns(); ++column) {
+            if (grid.cell(static_cast<int>(column), static_cast<int>(row)) == 0) continue;
+            const std::uint32_t a = grid.particle(column, row), b = a + 1, c = a + grid.columns(), d = c + 1;
+            add_quarter(a, b, c), add_quarter(b, a, d), add_quarter(c, d, a), add_quarter(d, c, b);
+        }
     return torque;
 }
 
@@ -132,7 +132,6 @@ double angular_momentum(const SceneRun& run, const ClothMeasure& measure, std::s
 /// difference between the two sides is at most `relative_error` of the integral of |torque|.
 Verdict torque(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
-    const std::vector<std::uint32_t> corners = measure.grid.triangle_indices();
     const Vec3 pole = run.at(0, 0, 0);
     const double dt = 1 / run.scene.time.fps, c = run.scene.cloths[0].damping;
     const std::size_t first = std::max<std::size_t>(limits.index("from_frame"), 1),
@@ -140,7 +139,8 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
     if (first >= last) return {false, "there are no such frames"};
     double before = angular_momentum(run, measure, first - 1, pole), expected = before, impulse = 0, worst = 0;
     for (std::size_t frame = first; frame < last; ++frame) {
-        const double now = angular_momentum(run, measure, frame, pole), wind = wind_torque(run, corners, frame, pole);
+        const double now = angular_momentum(run, measure, frame, pole),
+                     wind = wind_torque(run, measure.grid, frame, pole);
         expected += dt * (wind - 0.5 * c * (before + now));
         impulse += dt * std::abs(wind);
         worst = std::max(worst, std::abs(now - expected));

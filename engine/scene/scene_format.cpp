@@ -72,11 +72,10 @@ const Object<FactorKey> stiffness_key{"stiffness_key",
 
 const Object<Wind> wind{
     "wind",
-    "Aerodynamic force on each triangle of area A, with relative wind v and unit normal n turned so that n.v > 0: F = "
-    "1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n], shared equally by its particles. A counts to twice its "
-    "value at rest. It does not act on triangles that are split. Where no wind ever blows there is no air, which costs "
-    "nothing; a velocity of 1e-9 makes still air, "
-    "which slows cloth down.",
+    "Aerodynamic force on a particle from each quarter of a cell that is its, of area A, with relative wind v and unit "
+    "normal n turned so that n.v > 0: F = 1/2 air_density A [(drag - lift) (v.n) v + lift |v|^2 n]. Edges to the "
+    "particle's neighbours span the quarter. A counts to twice its value at rest. Where no wind ever blows there is no "
+    "air, which costs nothing; a velocity of 1e-9 makes still air, which slows cloth down.",
     {
         {"velocity", &Wind::velocity, vec3, "m/s, steady wind. Ignored (with a warning) beside keys."},
         {"keys", &Wind::keys, keys_in_time<VectorKey>(wind_key),

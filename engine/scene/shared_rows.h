@@ -24,9 +24,14 @@ inline const Object<MotionKey> motion_key{
 
 inline const Named<MotionPath> path{
     "path",
-    "Catmull-Rom through the keys, component by component, angles too (so several turns are allowed): cubic Hermite "
-    "between neighbouring keys with slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner keys and 0 at the first and "
-    "the last. Before the first and after the last key, that key holds. Times must increase strictly.",
+    "A smooth way through the keys, component by component, angles too (so several turns are allowed), that never "
+    "leaves "
+    "the range of the two keys around it: cubic Hermite with slope (p[k+1] - p[k-1]) / (t[k+1] - t[k-1]) at inner "
+    "keys, "
+    "at most three times as steep as the straight lines to both neighbours and 0 where these go opposite ways or one "
+    "is "
+    "level, and 0 at the first and the last. Before the first and after the last key, that key holds. Times must "
+    "increase strictly.",
     motion_path(motion_key)};
 
 }  // namespace drape::rows

@@ -7,7 +7,6 @@ namespace drape {
 namespace {
 
 using Statistics = std::vector<ClothStatistics>;
-constexpr const char* remedy = "more substeps, weaker forces or stiffness may help";
 
 std::array<std::uint32_t, 2> place_of(const Grid& grid, std::uint32_t particle) {
     return {particle % grid.columns(), particle / grid.columns()};
@@ -21,9 +20,8 @@ std::optional<FrameFailure> divergence(const SimulationModel& model, std::uint32
         const auto place = place_of(grid, statistics.first_non_finite);
         std::string reason = fmt::format(
             "the simulation diverged: in frame {}, cloth '{}', the particle in column {}, row {} is not finite "
-            "({} of the cloth's {} particles are not); {}",
-            frame, model.cloths[cloth].name, place[0], place[1], statistics.non_finite_count, grid.particle_count(),
-            remedy);
+            "({} of the cloth's {} particles are not); more substeps, weaker forces or stiffness may help",
+            frame, model.cloths[cloth].name, place[0], place[1], statistics.non_finite_count, grid.particle_count());
         return FrameFailure{FrameFailure::Kind::not_finite,
                             std::move(reason),
                             frame,
@@ -48,7 +46,7 @@ std::optional<FrameFailure> nonsense(const SimulationModel& model, Watch& watch,
                                                            (*failure.particle)[1])
                                              : std::string();
     failure.reason = fmt::format("the simulation is not plausible: in frame {}, cloth '{}', {}{}; {}", frame,
-                                 cloth.name, who, found->what, remedy);
+                                 cloth.name, who, found->what, found->remedy);
     return failure;
 }
 

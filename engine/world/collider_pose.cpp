@@ -110,8 +110,7 @@ double deformed(const Collider& collider, double from, double to) {
 }
 
 bool rests(const Collider& collider, double from, double to) {
-    const MotionPath& path = collider.path;
-    if (path.moves() && to > path.keys.front().time && from < path.keys.back().time) return false;
+    if (!rests(collider.path, from, to)) return false;
     if (!collider.deforms()) return true;
     const Mesh& mesh = std::get<Mesh>(collider.shape);
     return mesh.sequence->count() == 1 || (!mesh.loop && pose_number(mesh, from) == pose_number(mesh, to));

@@ -34,10 +34,17 @@ SineCosine sine_cosine(double degrees) {
 }
 
 Vec3 slope_at(const std::vector<MotionKey>& keys, std::size_t k, Vec3 MotionKey::*member) {
-    if (k == 0 || k + 1 == keys.size()) return {0, 0, 0};
-    const double span = keys[k + 1].time - keys[k - 1].time;
-    Vec3 slope;
-    for (std::size_t i = 0; i < 3; ++i) slope[i] = ((keys[k + 1].*member)[i] - (keys[k - 1].*member)[i]) / span;
+    Vec3 slope{0, 0, 0};
+    if (k == 0 || k + 1 == keys.size()) return slope;
+    const double before = keys[k].time - keys[k - 1].time, after = keys[k + 1].time - keys[k].time;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double last = (keys[k - 1].*member)[i], here = (keys[k].*member)[i], next = (keys[k + 1].*member)[i];
+        const double come = (here - last) / before, go = (next - here) / after;
+        if (!(come > 0 && go > 0) && !(come < 0 && go < 0)) continue;
+        // A cubic is monotone if neither of its slopes is above three times the mean one (Fritsch and Carlson 1980).
+        const double most = 3 * std::min(std::abs(come), std::abs(go));
+        slope[i] = std::clamp((next - last) / (before + after), -most, most);
+    }
     return slope;
 }
 
@@ -86,6 +93,17 @@ MotionKey key_at(const MotionPath& path, double time) {
     const auto k = static_cast<std::size_t>(later - keys.begin()) - 1;
     if (later == keys.end() || time == keys[k].time) return {time, keys[k].translate, keys[k].rotate};
     return {time, interpolate(keys, k, time, &MotionKey::translate), interpolate(keys, k, time, &MotionKey::rotate)};
+}
+
+bool rests(const MotionPath& path, double from, double to) {
+    const auto same = [](const MotionKey& a, const MotionKey& b) {
+        return a.translate == b.translate && a.rotate == b.rotate;
+    };
+    // Between two keys nothing turns round, so what is equal at both ends is constant.
+    const MotionKey first = key_at(path, from);
+    return same(first, key_at(path, to)) && std::ranges::all_of(path.keys, [&](const MotionKey& key) {
+               return key.time <= from || key.time >= to || same(key, first);
+           });
 }
 
 RigidTransform motion_at(const MotionPath& path, double time) {

@@ -1,66 +1,130 @@
-// The wind's force on a triangle, and the normal of a cell (docs/physics.md 6).
+// The force of the air on a particle, and the normal of a cell (docs/physics.md 6).
 #ifndef DRAPE_WIND_H
 #define DRAPE_WIND_H
 
 #include "include/vector.h"
+#include "shared/simulation_types.h"
 
-/// The force of the wind on a triangle, or on a particle from all of its triangles.
+/// The force of the air on a particle, or on one of the quarters of cells that it has.
 struct WindForce {
     vec3 force;  // N
-    float drag;  // per triangle, kg/s; per particle, N per metre that the substep's displacement changes
+    float drag;  // kg/s; of a whole particle, N per metre that the substep's displacement changes
 };
 
-/// Force (N) on a triangle of corners p0 p1 p2 (m) moving with mean velocity `velocity` (m/s) in wind `wind`: F = rho A
-/// / 2 [(Cd - Cl)(v.n) v + Cl |v|^2 n], v = wind - velocity, n the unit normal turned so that n.v > 0. A degenerate
-/// triangle (no area, no normal) feels nothing. Coefficients: rho (Cd - Cl)/2, rho Cl/2. Drag c = rho A/2 (|Cd - Cl| f
-/// + Cl |v| min(|v|/f, 2)), f = v.n: where the wind blows straight on the triangle it is half of -dF/dv, which makes a
-/// step of v' = v + h F/(m + h c) exact there for every h; elsewhere it is more than half of every eigenvalue of -dF/dv
-/// (for Cd <= 3 Cl) and than |F|/|v|. The factor of 2 is for grazing wind, whose lift turns over with the triangle:
-/// with 1, light cloth of Cl > Cd gathers speed without end. A counts up to `area_limit`: cloth too soft for its wind
-/// would else offer it ever more area and stretch without end.
-SHARED WindForce triangle_wind_force(vec3 p0, vec3 p1, vec3 p2, vec3 velocity, vec3 wind, float drag_coefficient,
-                                     float lift_coefficient, float area_limit) {
-    precise vec3 doubled = ordered_cross(p1 - p0, p2 - p0);
-    precise float doubled_squared = ordered_dot(doubled, doubled);
-    precise float doubled_area = sqrt(doubled_squared);
-    precise float half_doubled = 0.5f * doubled_area;
-    precise float area = half_doubled > area_limit ? area_limit : half_doubled;
-    precise vec3 relative = wind - velocity;
-    precise vec3 unit = doubled * reciprocal(doubled_area);
-    precise float along = ordered_dot(relative, unit);
-    precise vec3 normal = along < 0.0f ? -unit : unit;
-    precise float facing = along < 0.0f ? -along : along;
-    precise float squared = ordered_dot(relative, relative);
-    precise vec3 force = (relative * (drag_coefficient * facing) + normal * (lift_coefficient * squared)) * area;
-    precise float speed = sqrt(squared);
-    precise float resisting = 2.0f * facing <= speed ? 2.0f * speed : squared / facing;
-    precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * area;
-    // The values are selected, not branched on (include/line.h).
-    bool is_one = doubled_squared > 0.0f;
-    return WindForce(is_one ? force : vec3(0.0f, 0.0f, 0.0f), is_one ? drag : 0.0f);
+/// Returns the bits of what the air acts on (shared/simulation_types.h) of a particle of a cloth without holes and
+/// cuts.
+SHARED uint border_air(ivec2 particle, ivec2 grid) {
+    bool left = particle.x > 0, right = particle.x + 1 < grid.x, up = particle.y > 0, down = particle.y + 1 < grid.y;
+    return (left && up ? air_up_left : 0u) | (right && up ? air_up_right : 0u) | (left && down ? air_down_left : 0u) |
+           (right && down ? air_down_right : 0u) | (left ? air_left : 0u) | (right ? air_right : 0u) |
+           (up ? air_up : 0u) | (down ? air_down : 0u);
 }
 
-/// Sums over triangles start from -0, since -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the
-/// addition of a zero.
-SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
+/// The edges from a particle to its neighbours along its row and its column, m. Their signs do not matter.
+struct AirEdges {
+    vec3 left, right, up, down;
+};
 
-/// Returns one corner's third of the force on a triangle whose corners moved by d0 d1 d2 in the last substep.
-SHARED WindForce wind_share(vec3 p0, vec3 p1, vec3 p2, vec3 d0, vec3 d1, vec3 d2, float inverse_step, vec3 wind,
-                            float drag_coefficient, float lift_coefficient, float area_limit) {
-    const float third = 1.0f / 3.0f;
-    precise float third_of_inverse_step = inverse_step * third;
-    precise vec3 velocity = (d0 + d1 + d2) * third_of_inverse_step;
-    WindForce on_triangle =
-        triangle_wind_force(p0, p1, p2, velocity, wind, drag_coefficient, lift_coefficient, area_limit);
-    precise vec3 force = on_triangle.force * third;
-    precise float drag = on_triangle.drag * third_of_inverse_step;
+/// Returns an edge of length `width` square to `edge` and to the wind; zero where there is no such direction.
+SHARED vec3 edge_across(vec3 edge, vec3 relative, float width) {
+    vec3 square = ordered_cross(edge, relative);
+    precise float squared = ordered_dot(square, square);
+    precise float scale = width / sqrt(squared);
+    precise vec3 across = square * scale;
+    return squared > 0.0f ? across : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// Returns the edges with those to neighbours that are cut off replaced, since they lead to another piece. The edge on
+/// the other side of the particle takes its place. Where that is gone too, cloth is a thread or a crumb there and has
+/// no direction of its own across: it faces the wind, as wide as a cell (`spacing`, m).
+SHARED AirEdges own_edges(AirEdges edges, uint air, vec3 relative, vec2 spacing) {
+    bool left = (air & air_left) != 0u, right = (air & air_right) != 0u;
+    bool up = (air & air_up) != 0u, down = (air & air_down) != 0u;
+    AirEdges own = AirEdges(left ? edges.left : edges.right, right ? edges.right : edges.left,
+                            up ? edges.up : edges.down, down ? edges.down : edges.up);
+    bool in_row = left || right, in_column = up || down;
+    if (!in_column) {
+        vec3 axis = abs(relative.x) < abs(relative.y) ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
+        own.up = edge_across(in_row ? own.left : axis, relative, spacing.y);
+        own.down = edge_across(in_row ? own.right : axis, relative, spacing.y);
+    }
+    if (!in_row) {
+        own.left = edge_across(own.up, relative, spacing.x);
+        own.right = own.left;
+    }
+    return own;
+}
+
+/// Returns the force (N) on a quarter of a cell, whose corner's edges are `row` and `column` (m), in the wind
+/// `relative` to the corner (m/s): F = rho A/2 [(Cd - Cl)(v.n) v + Cl |v|^2 n], v = `relative`, A = |row x column|/4, n
+/// the unit normal turned so that n.v > 0. Coefficients: rho (Cd - Cl)/2, rho Cl/2. `squared` and `speed`: |v|^2, |v|.
+///
+/// Drag c = rho A/2 (|Cd - Cl| f + Cl |v| min(|v|/f, 2)), f = v.n. Where the wind blows straight on it is half of
+/// -dF/dv, which makes a step of v' = v + h F/(m + h c) exact there for every h; elsewhere it is more than half of
+/// every eigenvalue of -dF/dv (for Cd <= 3 Cl) and than |F|/|v|. The factor of 2 is for grazing wind, whose lift turns
+/// over with the cloth: with 1, light cloth of Cl > Cd gathers speed without end.
+///
+/// A counts up to a quarter of `most` (m^2): cloth too soft for its wind would else offer it ever more area and stretch
+/// without end.
+SHARED WindForce quarter_wind_force(vec3 row, vec3 column, vec3 relative, float squared, float speed,
+                                    float drag_coefficient, float lift_coefficient, float most) {
+    precise vec3 normal = ordered_cross(row, column);
+    precise float size = sqrt(ordered_dot(normal, normal));
+    precise float along = ordered_dot(relative, normal);
+    precise vec3 facing_normal = along < 0.0f ? -normal : normal;
+    precise float facing = along < 0.0f ? -along : along;
+    precise float flow = speed * size;
+    precise float resisting = 2.0f * facing <= flow ? 2.0f * flow : flow / facing * flow;
+    precise float limited = 0.25f * (most / size);
+    float quarter = size > most ? limited : 0.25f;
+    precise vec3 force =
+        (relative * (drag_coefficient * facing) + facing_normal * (lift_coefficient * squared)) * quarter;
+    precise float drag = (abs(drag_coefficient) * facing + lift_coefficient * resisting) * quarter;
     return WindForce(force, drag);
 }
+
+/// Sums start from -0, since -0 + x is x for every x, +0 + (-0) is not, and some compilers drop the addition of a zero.
+SHARED vec3 empty_sum() { return vec3(-0.0f, -0.0f, -0.0f); }
 
 SHARED WindForce add_share(WindForce sum, WindForce share) {
     precise vec3 force = sum.force + share.force;
     precise float drag = sum.drag + share.drag;
     return WindForce(force, drag);
+}
+
+/// Returns what a quarter adds to a sum; one that does not exist adds nothing, not even a zero's sign.
+SHARED WindForce share_if(bool exists, WindForce share) {
+    // The values are selected, not branched on (include/line.h).
+    return WindForce(exists ? share.force : empty_sum(), exists ? share.drag : -0.0f);
+}
+
+/// Returns the force of the air on a particle in the wind `relative` to it (m/s). Air is shared like mass: the force on
+/// a quarter is its particle's. Quarters that face each other are added first, so that sums of a mirrored
+/// or transposed cloth round alike.
+SHARED WindForce particle_wind_force(AirEdges edges, uint air, vec3 relative, float inverse_step,
+                                     float drag_coefficient, float lift_coefficient, vec2 spacing) {
+    precise float squared = ordered_dot(relative, relative);
+    precise float speed = sqrt(squared);
+    precise float most = 2.0f * (spacing.x * spacing.y);
+    WindForce up_left = quarter_wind_force(edges.left, edges.up, relative, squared, speed, drag_coefficient,
+                                           lift_coefficient, most),
+              up_right = quarter_wind_force(edges.right, edges.up, relative, squared, speed, drag_coefficient,
+                                            lift_coefficient, most),
+              down_left = quarter_wind_force(edges.left, edges.down, relative, squared, speed, drag_coefficient,
+                                             lift_coefficient, most),
+              down_right = quarter_wind_force(edges.right, edges.down, relative, squared, speed, drag_coefficient,
+                                              lift_coefficient, most);
+    WindForce sum = add_share(
+        add_share(share_if((air & air_up_left) != 0u, up_left), share_if((air & air_down_right) != 0u, down_right)),
+        add_share(share_if((air & air_up_right) != 0u, up_right), share_if((air & air_down_left) != 0u, down_left)));
+    precise float drag = sum.drag * inverse_step;
+    return WindForce(sum.force, drag);
+}
+
+/// Returns the wind that a particle feels which moved by `displacement` in the last substep, m/s.
+SHARED vec3 relative_wind(vec3 wind, vec3 displacement, float inverse_step) {
+    precise vec3 relative = wind - displacement * inverse_step;
+    return relative;
 }
 
 /// Returns `sum` plus the weight of a particle under `gravity`; the inverse mass of an inner particle is 1. A particle

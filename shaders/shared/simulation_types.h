@@ -92,11 +92,15 @@ struct WindPush {
     float inverse_step;      // 1 / h
     float drag_coefficient;  // air_density (Cd - Cl) / 2
     float lift_coefficient;  // air_density Cl / 2
-    float area_limit;        // m^2, largest area of a triangle that the wind feels, twice its area at rest
+    vec2 spacing;            // m, of particles along columns, rows
     int first;               // index of the first substep's wind, of the cloth's own scene
     float inner_mass;        // kg, of an inner particle
-    float unused;
 };
+
+/// Bits of what the air acts on at a particle: its quarters of the cells up left, up right, down left and down right,
+/// and the neighbours left, right, up and down that springs still hold it to.
+const uint air_up_left = 1u, air_up_right = 2u, air_down_left = 4u, air_down_right = 8u;
+const uint air_left = 16u, air_right = 32u, air_up = 64u, air_down = 128u;
 
 struct CollisionPush {
     vec4 contact;  // x: thickness kept from every collider, m; y: square root of the cloth's friction coefficient; z:

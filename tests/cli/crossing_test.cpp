@@ -128,9 +128,8 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
                 HasSubstr("Not covered: " + count.asString() + " triangles of cloth 'sheet', from frame 6 on."));
 }
 
-TEST(Crossings, TrianglesThatTheWindLeavesOutAreCounted) {
+TEST(Crossings, TrianglesThatCuttersSplitFeelTheWind) {
     const SceneFolder folder(cut_across_a_box);
-    const std::string apart = "/cloths/0/self_collision=false";
     const auto said = [&](const std::vector<std::string>& overrides) {
         std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "--overwrite"};
         for (const std::string& each : overrides) arguments.insert(arguments.end(), {"--set", each});
@@ -139,15 +138,9 @@ TEST(Crossings, TrianglesThatTheWindLeavesOutAreCounted) {
         return outcome.err;
     };
     const std::string blows = "/wind/velocity=[0,3,0]";
-    EXPECT_THAT(said({blows}), HasSubstr(" meet no cloth and no edge of a collider, and feel no wind; a finer grid"));
-    EXPECT_THAT(said({blows, apart, "/colliders={}"}), HasSubstr(" that were split from frame 6 on feel no wind; a"));
-    const Json::Value manifest = lasting_manifest(folder / "out"), &list = manifest["wind"]["not_covered"];
-    ASSERT_EQ(list.size(), 1u);
-    EXPECT_EQ(list[0]["cloth"].asString(), "sheet");
-    EXPECT_EQ(list[0]["first_frame"].asInt(), 6);
-    EXPECT_EQ(list[0]["triangles"], manifest["cuts"][0]["triangles"]);
-    EXPECT_THAT(said({apart, "/colliders={}"}), Not(HasSubstr("note: ")));
-    EXPECT_FALSE(lasting_manifest(folder / "out").isMember("wind"));
+    EXPECT_THAT(said({blows}), HasSubstr(" meet no cloth and no edge of a collider; a finer grid"));
+    EXPECT_THAT(said({blows, "/cloths/0/self_collision=false", "/colliders={}"}), Not(HasSubstr("note: ")));
+    EXPECT_EQ(lasting_manifest(folder / "out")["cuts"].size(), 1u);
 }
 
 TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {

@@ -15,7 +15,7 @@ const std::vector<StepBound>& step_bounds() {
     static const std::vector<StepBound> bounds = {
         {stiffness, 0, fixed, 0, "a product"},
         {release, 64, fixed, 0, "a root and a division for each of eight springs, added up"},
-        {wind, 20, fixed, 0, "of each triangle a root, two divisions and a root, its normal used twice; shares added"},
+        {wind, 20, fixed, 0, "of each quarter two roots and two divisions, its normal used twice; quarters added"},
         {predict, 4, fixed, 0, "the drag's share is one division from 1"},
         {force, 4, fixed, 0, "as predict"},
         {explicit_step, 64, steps, 0, "a root and a division for each of eight springs, added up"},

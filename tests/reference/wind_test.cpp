@@ -44,14 +44,12 @@ TEST(WindTest, AFlatPlateFeelsTheStatedForce) {
         }
 }
 
-TEST(WindTest, ADegenerateTriangleFeelsNothing) {
+TEST(WindTest, ADegenerateQuarterFeelsNothing) {
     using namespace glsl;
-    const vec3 zero{0, 0, 0}, wind{5, 0, 3};
-    const vec3 points[][3] = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
-                              {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},
-                              {{0, 0, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}}};
-    for (const auto& p : points) {
-        const WindForce felt = triangle_wind_force(p[0], p[1], p[2], zero, wind, 0.6f, 0.3f, 1.0f);
+    const vec3 wind{5, 0, 3};
+    const vec3 edges[][2] = {{{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {2, 0, 0}}, {{1e-30f, 0, 0}, {0, 1e-30f, 0}}};
+    for (const auto& [row, column] : edges) {
+        const WindForce felt = quarter_wind_force(row, column, wind, 34, sqrt(34.0f), 0.6f, 0.3f, 1.0f);
         EXPECT_EQ(felt.force.x, 0.0f);
         EXPECT_EQ(felt.force.y, 0.0f);
         EXPECT_EQ(felt.force.z, 0.0f);

@@ -1,8 +1,10 @@
 #include "twin/twin.h"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 
+#include "cloth/air.h"
 #include "cloth/difference.h"
 #include "cloth/kernel_steps.h"
 #include "cloth/substep_change.h"
@@ -147,20 +149,21 @@ void run_wind(const TwinPlace& where) {
     };
     for (int y = 0; y < push.grid.y; ++y)
         for (int x = 0; x < push.grid.x; ++x) {
-            WindForce sum{empty_sum(), 0.0f};
-            for_triangles_around(state.topology.grid(), {x, y}, [&](ivec2 cell, int which) {
-                std::size_t corner[3];
-                for (int k = 0; k < 3; ++k) {
-                    const ivec2 offset = triangle_corner(which, k);
-                    corner[k] = at(model.grid, {cell.x + offset.x, cell.y + offset.y});
-                }
-                const WindForce share = wind_share(
-                    now(corner[0]), now(corner[1]), now(corner[2]), xyz(state[Field::displacement][corner[0]]),
-                    xyz(state[Field::displacement][corner[1]]), xyz(state[Field::displacement][corner[2]]),
-                    push.inverse_step, velocity, push.drag_coefficient, push.lift_coefficient, push.area_limit);
-                sum = add_share(sum, share);
-            });
             const std::size_t particle = at(model.grid, {x, y});
+            const vec3 here = now(particle);
+            const auto edge_to = [&](int i, int j) {
+                return now(at(model.grid, {std::clamp(i, 0, push.grid.x - 1), std::clamp(j, 0, push.grid.y - 1)})) -
+                       here;
+            };
+            AirEdges edges{edge_to(x - 1, y), edge_to(x + 1, y), edge_to(x, y - 1), edge_to(x, y + 1)};
+            const vec3 relative = relative_wind(velocity, xyz(state[Field::displacement][particle]), push.inverse_step);
+            uint air = border_air({x, y}, push.grid);
+            if (state.topology.masked()) {
+                air = air_of(state.topology, x, y);
+                edges = own_edges(edges, air, relative, push.spacing);
+            }
+            WindForce sum = particle_wind_force(edges, air, relative, push.inverse_step, push.drag_coefficient,
+                                                push.lift_coefficient, push.spacing);
             if (scene.weighs)
                 sum.force = add_weight(sum.force, xyz(inputs.wind[own + 1]), push.inner_mass,
                                        state[Field::position][particle].w);

@@ -120,7 +120,7 @@ def draw_cloth(number, dice):
 
 
 def draw_path(seconds, speed, dice):
-    """Through a few places and attitudes, at up to `speed` m/s: Catmull-Rom overshoots, so legs are slower."""
+    """Through a few places and attitudes, at up to `speed` m/s: a curve is faster than its mean, so legs are slower."""
     legs = 1 + dice.below(4)
     begin = 0 if dice.chance(0.5) else dice.uniform(0, 0.5 * seconds)
     leg = (seconds - begin) / legs * dice.uniform(0.3, 1)

@@ -65,7 +65,8 @@ struct MotionKey {
     bool operator==(const MotionKey&) const = default;
 };
 
-/// The path is a Catmull-Rom spline through the keys with zero end slopes; it holds its ends, and rests without keys.
+/// The path is a smooth curve through the keys that does not leave their range (world/motion.h); it holds its ends, and
+/// rests without keys.
 struct MotionPath {
     std::vector<MotionKey> keys;  ///< strictly increasing in time
     bool moves() const { return keys.size() > 1; }
