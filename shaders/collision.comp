@@ -72,16 +72,6 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     return whole;
 }
 
-/// Returns the value to store as the previous substep's displacement of a particle that is touched, so that no rebound
-/// is derived from it: its displacement, which self_return.comp will change if impulses pushed it.
-vec3 before_touched(ivec2 texel, vec3 displacement) {
-    if (!after_impulses) return displacement;
-    ivec2 laid = push.laid + texel;
-    vec4 was = before[laid.y * push.sheet_columns + laid.x];
-    if (was.w == self_pushed || was.w == self_pushed_and_led) return was.xyz;
-    return displacement;
-}
-
 /// Returns the displacement with which a particle comes to the colliders; w is above 0 if an edge of a collider moved
 /// it.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
@@ -178,15 +168,18 @@ bool meet_all(ivec2 texel, bool follows) {
                     ? led_out(texel, start, displacement, way_out)
                     : displacement;
     leave(texel, made, moved);
+    bool lies = supporting && (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f);
     if (supporting) {
         vec3 touches = displacement;
         if (after_impulses) touches = grip.xyz;  // the next substep starts where this one leaves the particle
-        if (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f) {  // otherwise an edge of a collider moved it
+        if (lies) {  // otherwise an edge of a collider moved it
             imageStore(support, placed(texel), vec4(normal, ordered_dot(normal, touches)));
             imageStore(support_grip, placed(texel), grip);
         }
     }
-    STORE_VECTOR(displacement_before, texel, vec4(before_touched(texel, displacement), 0.0f));
+    // No rebound is derived from a touch: the previous substep's displacement becomes the particle's own. Contact
+    // between cloths still needs it, and self_return.comp replaces it after that.
+    if (after_impulses || !lies) STORE_VECTOR(displacement_before, texel, vec4(displacement, 0.0f));
     if (second_order) hold_order();
     return true;
 }

@@ -1,6 +1,8 @@
 // This pass computes the impulses of the pairs that touch, from the motions under the previous round's impulses, and
 // sums them as integers, so that the order does not matter. The first round also sums the impulses that lead pairs
-// apart that lack some of their thickness; the last one records what every pair bears, for the next substep.
+// apart that lack some of their thickness; the last one records what every pair bears, for the next substep. Where it
+// `looks_back`, the pass finds instead, from none on, the impulses that the motions of the substep before would have
+// called for (docs/solvers.md, "Substeps that change").
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
@@ -22,6 +24,7 @@ layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer supports;
 #define SUMS_IN_SLOT 9
 #include "include/self_sums.h"
 
+layout(constant_id = 24) const bool looks_back = false;
 #include "include/self_carried.h"
 
 struct Corner {
@@ -29,12 +32,14 @@ struct Corner {
     float mass, holds;
 };
 
+bool begins_with_none() { return looks_back && push.round == 0; }
+
 Corner corner_of(uint which, SelfCloth cloth) {
     ivec2 texel = self_texel(which);
     int place = place_of(texel);
     precise float mass = imageLoad(positions, texel).w * cloth.lightness;
-    vec3 moved = imageLoad(displacements, texel).xyz;
-    vec3 by = self_moved_by(impulse_of(sum_of(push.round, place), cloth.largest), mass);
+    vec3 moved = imageLoad(displacements, texel).xyz, by = vec3(0.0f, 0.0f, 0.0f);
+    if (!begins_with_none()) by = self_moved_by(impulse_of(sum_of(push.round, place), cloth.largest), mass);
     Support support = Support(imageLoad(supports, 2 * place), imageLoad(supports, 2 * place + 1));
     vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried_at(place));
     return Corner(motion, mass, self_holds(sum_of(0, place).z_weight.z));
@@ -55,10 +60,12 @@ void work(bool edges, int entry) {
     float yields = self_yields(touch.weights, vec4(a.mass, b.mass, c.mass, d.mass),
                                vec4(a.holds, b.holds, c.holds, d.holds));
     vec3 relative = self_sum(touch.weights, SelfCorners(a.motion, b.motion, c.motion, d.motion));
+    if (begins_with_none()) touch.impulse.xyz = vec3(0.0f, 0.0f, 0.0f);
     touch.impulse.xyz = self_next_impulse(touch, relative, yields);
     touching[entry].impulse = touch.impulse;
     bool presses = touch.impulse.x != 0.0f || touch.impulse.y != 0.0f || touch.impulse.z != 0.0f;
     if (presses) add_impulse(push.round + 1, edges, touch.corners, touch.weights, touch.impulse.xyz, one.largest);
+    if (looks_back) return;
     float leads = push.round == 0 ? self_leading(touch, yields) : 0.0f;
     precise vec3 leading = touch.normal.xyz * leads;
     if (leads > 0.0f) add_impulse(self_sum_of_thickness, edges, touch.corners, touch.weights, leading, one.largest);
@@ -71,7 +78,7 @@ void main() {
                                   push.touching_capacity);
     int edges = self_both_listed(record[0].touching_edge_count, record[0].touching_point_count,
                                  push.touching_capacity);
-    if (push.round == 0 && gl_GlobalInvocationID.x == 0u) borne[0].corners.x = 0u;
+    if (!looks_back && push.round == 0 && gl_GlobalInvocationID.x == 0u) borne[0].corners.x = 0u;
     FOR_EVERY(i, points, work(false, i))
     FOR_EVERY(i, edges, work(true, push.touching_capacity - 1 - i))
 }

@@ -1,8 +1,9 @@
 // This pass copies a cloth's particles to the sheet, as they are at this point of a substep. Where `masked`, an image
-// says which triangles exist (holes, cuts). Where `supported`, it also copies the surfaces on which they lie. The pass
-// of a member's last cloth also begins the member's contact in the substep: the first workgroup computes the common
-// motion relative to which all of its particles are measured, from a few samples, or none where some particles are
-// always held, and resets the records for the passes to come.
+// says which triangles exist (holes, cuts). Where `supported`, it also copies the surfaces on which they lie, and in
+// the substep that `ends_frame` the motions of the one before. The pass of a member's last cloth also begins the
+// member's contact in the substep: the first workgroup computes the common motion relative to which all of its
+// particles are measured, from a few samples, or none where some particles are always held, and resets the records for
+// the passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -26,6 +27,9 @@ layout(constant_id = 24) const bool supported = false;
 layout(set = 0, binding = 5, rgba32f) uniform image2D support;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D support_grip;
 layout(set = 0, binding = 7, std430) writeonly buffer Supports { vec4 supports[]; };
+layout(constant_id = 26) const bool ends_frame = false;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacement_before;
+VECTOR_KEPT(12, last_motions);
 layout(set = 0, binding = 8, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 9, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer Sizes { uvec4 sizes[]; };
@@ -55,6 +59,7 @@ void lay(ivec2 texel) {
     STORE_IN_COLUMNS(positions, laid, push.sheet.x, LOAD(position, texel));
     vec3 moved = LOAD(displacement, texel).xyz;
     STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
+    if (ends_frame) STORE_IN_COLUMNS(last_motions, laid, push.sheet.x, LOAD(displacement_before, texel));
     if (!supported) return;
     // The mark is reset, since this substep's last collision decides anew where a particle lies.
     vec4 plane = LOAD(support, texel);

@@ -1,6 +1,7 @@
 // This pass gives the particles the velocities that the contacts' impulses cause, and moves them by these and by what
 // restores a missing thickness. Where some cloths `crossed` when they started, it adds the velocity that leads them
-// apart.
+// apart. Where it `looks_back`, it changes the motions of the substep before alike, which are no start of anything. In
+// the substep that `ends_frame`, it clears the sums of the rounds for the rounds that look back.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -24,14 +25,23 @@ layout(set = 0, binding = 8, std430) readonly buffer Record { SelfRecord record[
 layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer supports;
 layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 10, std430) readonly buffer Led { vec4 led[]; };
+layout(constant_id = 22) const bool looks_back = false;
+layout(constant_id = 26) const bool ends_frame = false;
 #define SUMS_IN_SLOT 11
 #include "include/self_sums.h"
+layout(set = 0, binding = 12, std430) writeonly buffer Sums { uvec4 sums[]; };  // two each
 
 bool touching;  // some pairs touch; otherwise the sums belong to an earlier substep
 
 bool pushed(int place) {
     if (crossed) return true;                  // its cloth may be led apart
     return sum_of(0, place).z_weight.z != 0u;  // some contact holds it
+}
+
+void clear_rounds(int place) {
+    for (int round = 1; round <= self_iterations; ++round)
+        for (int half_sum = 0; half_sum < 2; ++half_sum)
+            sums[2 * (round * push.grid.x * push.grid.y + place) + half_sum] = uvec4(0u);
 }
 
 void move(int place) {
@@ -45,11 +55,16 @@ void move(int place) {
     vec3 impulse = touching ? impulse_of(sum_of(self_iterations, place), cloth.largest) : nothing;
     vec3 leading = touching ? impulse_of(sum_of(self_sum_of_thickness, place), cloth.largest) : nothing;
     vec3 velocity = self_added(moved.xyz, self_moved_by(impulse, mass));
+    if (ends_frame && !looks_back) clear_rounds(place);
     if (crossed) {
         vec3 by = led[max(owner_of(place), 0)].xyz;
         bool is_held = touching && sum_of(0, place).z_weight.z != 0u;
         if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
         velocity = self_led(velocity, by);
+    }
+    if (looks_back) {
+        STORE_VECTOR(displacements_out, texel, vec4(velocity, 0.0f));
+        return;
     }
     vec3 good = self_led_by(self_moved_by(leading, mass), imageLoad(supports, 2 * place).xyz);
     velocities[place] = vec4(velocity, 0.0f);

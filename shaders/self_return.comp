@@ -1,9 +1,9 @@
 // This pass ends a substep's contact for a cloth. It cuts short every motion that would go farther than was proved to
 // cross nothing. The particle's velocity remains its displacement, and its start is shifted so that it ends where
 // contact allows: what held it back, or led it apart, is no velocity. In `second_order` the cloth continues in backward
-// Euler substeps (include/bdf2.h). There, and in a frame's last substep of other methods, the displacement of the
-// substep before is changed in the same way as contact changed this one's, so that the two give the same acceleration
-// by springs as without contact.
+// Euler substeps (include/bdf2.h). In the substep that `ends_frame`, the displacement of the one before becomes what
+// contact would have left of it: the two differ by forces, those of contact included, and not by an impact. For a
+// particle that a collider touches it becomes the velocity.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -26,9 +26,8 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D position_in;
 TRIPLE_OUT(6, position_out);
 layout(constant_id = 22) const bool second_order = false;
 layout(constant_id = 24) const bool ends_frame = false;
-const bool changes_before = second_order || ends_frame;
-layout(set = 0, binding = 7, rgba32f) uniform readonly image2D displacement_before_in;
-TRIPLE_OUT(9, displacement_before_out);
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D last_motions;  // on the sheet
+VECTOR_KEPT(9, displacement_before);
 layout(set = 0, binding = 8, r32ui) uniform uimage2D line_control;
 layout(set = 0, binding = 10, std430) readonly buffer Shares { uint shares[]; };
 layout(set = 0, binding = 11, std430) buffer Record { SelfRecord record[]; };
@@ -41,7 +40,7 @@ vec3 carried;  // the member's, read before anything has branched (docs/devices.
 
 struct Motion {
     bool held, cut, pushed, led;
-    vec3 wanted, moved, bounded;  // displacement before contact, after it, and what contact allows of it, m
+    vec3 moved, bounded;  // displacement after contact, and what contact allows of it, m
     float share;                  // share of the motion that crosses nothing
 };
 
@@ -57,22 +56,41 @@ Motion motion_of(ivec2 texel) {
     vec3 bounded = held ? moved : allowed;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
     bool pushed = was.w == self_pushed || was.w == self_pushed_and_led, led = was.w >= self_led_out;
-    return Motion(held, share < 1.0f || changed, pushed, led, was.xyz, moved, bounded, share);
+    return Motion(held, share < 1.0f || changed, pushed, led, moved, bounded, share);
 }
 
-bool is_changed(ivec2 texel) {
-    Motion motion = motion_of(texel);
-    return motion.cut || motion.pushed || motion.led;
+bool is_changed(Motion motion) { return motion.cut || motion.pushed || motion.led; }
+
+/// Returns whether a particle lies on a collider where a frame ends with its velocity.
+bool ends_lying(ivec2 texel) {
+    if (!ends_frame) return false;
+    vec4 plane = imageLoad(supports, 2 * place_of(texel));
+    return plane.x != 0.0f || plane.y != 0.0f || plane.z != 0.0f;
 }
+
+bool concerns(ivec2 texel) { return is_changed(motion_of(texel)) || ends_lying(texel); }
 
 uint unproved = 0u, truncated = 0u;
 float lag = 0.0f;
 
+vec3 own_of(int place, Motion motion) {
+    return motion.led ? self_own_motion(motion.moved, imageLoad(led_ways, place).xyz) : motion.moved;
+}
+
 vec3 velocity_of(int place, Motion motion) {
-    vec3 own = motion.led ? self_own_motion(motion.moved, imageLoad(led_ways, place).xyz) : motion.moved;
+    vec3 own = own_of(place, motion);
     vec3 pushed = self_velocity(own, imageLoad(velocities, place).xyz, imageLoad(made_good, place).xyz,
                                 imageLoad(supports, 2 * place).xyz);
     return motion.pushed ? pushed : own;
+}
+
+/// Returns the motion of the substep before as contact and colliders would have left it.
+vec3 last_motion(ivec2 texel, Motion motion, vec3 velocity) {
+    int place = place_of(texel);
+    vec3 own = own_of(place, motion);
+    bool touched = self_was_touched(own, imageLoad(velocities, place).xyz, imageLoad(made_good, place).xyz,
+                                    imageLoad(supports, 2 * place).xyz);
+    return touched ? velocity : imageLoad(last_motions, push.first + texel).xyz;
 }
 
 /// Returns how far a particle moves, and counts it if that is less than it would.
@@ -97,19 +115,20 @@ void end_motion(ivec2 texel) {
         unproved += motion.cut ? 1u : 0u;
         return;
     }
+    if (!is_changed(motion)) {
+        STORE_VECTOR(displacement_before, texel, vec4(motion.moved, 0.0f));
+        return;
+    }
     vec3 made = made_of(motion), velocity = velocity_of(place_of(texel), motion);
     vec4 start = LOAD(position_in, texel);
     STORE_TRIPLE(position_out, texel, self_start(start.xyz, made, velocity), start.w);
     STORE_TRIPLE(displacement_out, texel, velocity, LOAD(displacement_in, texel).w);
-    if (changes_before) {
-        vec3 last = LOAD(displacement_before_in, texel).xyz;
-        if (motion.cut || motion.pushed)
-            STORE_TRIPLE(displacement_before_out, texel, self_changed_alike(last, motion.wanted, velocity), 0.0f);
-    }
+    if (ends_frame && (motion.pushed || ends_lying(texel)))
+        STORE_VECTOR(displacement_before, texel, vec4(last_motion(texel, motion, velocity), 0.0f));
     if (second_order) hold_order();
 }
 
-void end_all() { FOR_STRIP_FOUND(texel, push.grid, is_changed(texel), end_motion(texel)) }
+void end_all() { FOR_STRIP_FOUND(texel, push.grid, concerns(texel), end_motion(texel)) }
 
 /// Records in the frame's counts how many entries the substep's lists had.
 void count_lists() {

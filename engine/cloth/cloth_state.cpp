@@ -32,8 +32,10 @@ bool turns(Context c) { return gathers(c) || c.cloth.scheme.spare_displacement; 
 bool second_order(Context c) { return c.cloth.scheme.second_order; }
 bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.compares_states(); }
+/// Contact ends every frame with its velocity, which spares its passes a form without.
+bool keeps_excess(Context c) { return judged(c) || c.model.self_contact; }
 bool keeps_before(Context c) {
-    return second_order(c) || ((judged(c) || !c.model.scene.colliders.empty()) && !gathers(c));
+    return second_order(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
 }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
@@ -105,7 +107,7 @@ std::vector<FieldRow> motion_rows() {
          [](Context c) { return bytes_of_list(c.cloth.scheme.nested_table); }},
         {Field::displacement_before, "displacement before", stored, vector, state, keeps_before, particles},
         {Field::velocity_excess, "velocity excess", stored, vector, state, second_order, particles},
-        {Field::end_excess, "end excess", stored, vector, state, judged, particles, start_excess},
+        {Field::end_excess, "end excess", stored, vector, state, keeps_excess, particles, start_excess},
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},

@@ -46,6 +46,7 @@ std::vector<ContactRow> rows() {
         {led, "led", buffer, vector, device, contact_rows::crossed, contact_rows::cloths},
         {positions, "positions", image_and_buffer, vector, device, always, sheet},
         {displacements, "displacements", image_and_buffer, vector, device, always, sheet},
+        {last_motions, "last motions", image_and_buffer, vector, device, always, sheet},
         {boxes, "boxes", texel_buffer, box, device, always, places},
         {kept, "kept", texel_buffer, box, device, always,
          [](Context c) { return FieldExtent{self_tree_boxes(c.contact.push.grid)}; }},

@@ -17,6 +17,7 @@ enum class ContactField : std::uint8_t {
     led,            ///< by cloth: the displacement that leads it apart from others, m
     positions,      ///< by place: position at the start of the substep, m; w: relative inverse mass
     displacements,  ///< by place: motion within the substep, m; w: bits of the triangles and edges that it owns
+    last_motions,   ///< by place: motion within the substep before a frame's last one, m, as contact would have left it
     boxes,          ///< by place: a box around the cell during this substep (shaders/include/self_contact.h)
     kept,           ///< tree of the boxes in which cells were searched for, the lowest level first
     blocks,         ///< pairs of blocks of 2 x 2 cells that the search found

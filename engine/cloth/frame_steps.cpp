@@ -89,8 +89,6 @@ class ContactSteps {
         : model_(model), contact_(*model.self_contact), substep_(substep), steps_(steps) {}
 
     void add() {
-        glsl::SelfContactPush push = contact_.push;
-        const auto add_one = [&](StepKind kind) { steps_.push_back({kind, between_cloths, substep_, 0, push}); };
         add_for_cloths(StepKind::self_gather);
         for (const StepKind kind :
              {StepKind::self_boxes, StepKind::self_tree, StepKind::self_blocks, StepKind::self_near})
@@ -99,18 +97,28 @@ class ContactSteps {
             for (const StepKind kind : {StepKind::self_crossings, StepKind::self_apart}) add_one(kind);
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})
             add_one(kind);
-        for (push.round = 0; push.round < glsl::self_iterations; ++push.round) add_one(StepKind::self_contact);
-        add_one(StepKind::self_push);
+        add_impulses(false);
+        if (is_last()) add_impulses(true);
         if (!model_.scene.colliders.empty()) collide();
-        for (push.round = 0; push.round < glsl::self_rounds; ++push.round) add_one(StepKind::self_limit);
+        for (int round = 0; round < glsl::self_rounds; ++round) add_one(StepKind::self_limit, round);
         add_for_cloths(StepKind::self_return);
     }
 
   private:
+    bool is_last() const { return substep_ + 1 == model_.scene.solver.substeps; }
+    Step& add_one(StepKind kind, int round = 0) {
+        glsl::SelfContactPush push = contact_.push;
+        push.round = round;
+        return steps_.emplace_back(Step{kind, between_cloths, substep_, 0, push, is_last()});
+    }
+    void add_impulses(bool looks_back) {
+        for (int round = 0; round < glsl::self_iterations; ++round)
+            add_one(StepKind::self_contact, round).looks_back = looks_back;
+        add_one(StepKind::self_push).looks_back = looks_back;
+    }
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0),
-                              substep_ + 1 == model_.scene.solver.substeps});
+            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0), is_last()});
     }
     void collide() {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)

@@ -99,6 +99,8 @@ struct Step {
     /// A collision ends a substep after contact between cloths; it reads displacements from their sheet and writes them
     /// there too.
     bool after_impulses = false;
+    /// A step of contact between cloths finds impulses for the motions of the substep before.
+    bool looks_back = false;
     /// A prediction writes the displacement to its spare image, from which an odd number of joined steps brings it
     /// back. A step of all springs that carry tension writes the tension to the spare images, from which the next one
     /// brings it back.

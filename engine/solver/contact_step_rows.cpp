@@ -47,6 +47,9 @@ template <int first_slot>
 DispatchSize found_in_round(Place p, const ComputePipeline&) {
     return of_slot(p, first_slot + p.step.push<SelfContactPush>().round);
 }
+std::string motions_alias(Place p, std::string_view name, bool) {
+    return name == "displacements" && p.step.looks_back ? "last_motions" : std::string();
+}
 }  // namespace
 }  // namespace contact_rows
 
@@ -61,10 +64,14 @@ std::vector<StepRow> contact_step_rows() {
         return StepRow{kind, label, {{plain, shader, size}}, contact_push};
     };
     using enum StepKind;
-    StepRow returned = of_cloth(self_return, "self return", "self_return.comp");
-    returned.alias = before_alias;
+    StepRow gathered = of_cloth(self_gather, "self gather", "self_gather.comp"),
+            returned = of_cloth(self_return, "self return", "self_return.comp"),
+            contact = of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>),
+            push = of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>);
+    gathered.alias = returned.alias = before_alias;
+    contact.alias = push.alias = motions_alias;
     return {
-        of_cloth(self_gather, "self gather", "self_gather.comp"),
+        gathered,
         of_all(self_boxes, "self boxes", "self_boxes.comp", over_sheet),
         of_all(self_tree, "self tree", "self_tree.comp", found<glsl::self_size_tree>),
         of_all(self_blocks, "self blocks", "self_blocks.comp", found<glsl::self_size_blocks>),
@@ -74,8 +81,8 @@ std::vector<StepRow> contact_step_rows() {
         of_all(self_primitives, "self primitives", "self_primitives.comp", found<glsl::self_size_primitives>),
         of_all(self_pairs, "self pairs", "self_pairs.comp", found<glsl::self_size_pairs>),
         of_all(self_begin, "self begin", "self_begin.comp", found<glsl::self_size_contact>),
-        of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>),
-        of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>),
+        contact,
+        push,
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         returned,
     };

@@ -44,8 +44,6 @@ bool stores_stretch_tension(Place p) {
     return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
            p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
 }
-/// Returns whether the frame ends with the velocity that this step leaves, and the method keeps no history of its own.
-bool ends_frame(Place p) { return p.step.last && !second_order(p) && has(p, Field::end_excess); }
 bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
@@ -70,7 +68,7 @@ constexpr ConstantRow constant_rows[] = {
     {"control_comes_home", [](Place p) { return second_order(p) && p.step.substep % 2 == 1 ? 1u : 0u; }},
     {"crossed", [](Place p) { return crossed(p) ? 1u : 0u; }},
     {"directions", direction_bits},
-    {"ends_frame", [](Place p) { return ends_frame(p) ? 1u : 0u; }},
+    {"ends_frame", [](Place p) { return p.step.last ? 1u : 0u; }},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},
     {"halo", [](Place p) { return tile_of(p.step.kind, p.cloth->model->grid).halo; }},
@@ -82,6 +80,7 @@ constexpr ConstantRow constant_rows[] = {
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
+    {"looks_back", [](Place p) { return p.step.looks_back ? 1u : 0u; }},
     {"masked", [](Place p) { return p.cloth->masked() ? 1u : 0u; }},
     {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},

@@ -220,10 +220,12 @@ SHARED vec3 self_velocity(vec3 moved, vec3 pushed, vec3 made_good, vec3 normal) 
     return squared > 0.0f ? changed : pushed;
 }
 
-/// Returns a displacement with the change that contact made to that of the next substep.
-SHARED vec3 self_changed_alike(vec3 last, vec3 wanted, vec3 velocity) {
-    precise vec3 changed = last + (velocity - wanted);
-    return changed;
+/// Returns whether a collider touched a particle in this substep: before impulses, so that it lies on a surface
+/// (`normal`, zero if none), or after them, so that it does not make the motion that they left it with.
+SHARED bool self_was_touched(vec3 moved, vec3 pushed, vec3 made_good, vec3 normal) {
+    vec3 left = self_added(pushed, made_good);
+    bool lies = normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f;
+    return lies || moved.x != left.x || moved.y != left.y || moved.z != left.z;
 }
 
 /// Returns how far a motion falls short of another, m.

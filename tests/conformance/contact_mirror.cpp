@@ -104,7 +104,9 @@ void ContactMirror::put(ContactField field, std::span<const std::byte> bytes) co
 void ContactMirror::upload(const Step& step, const Names& used, const TwinContact& twin) {
     const auto uses = [&](ContactField field) { return used.contains(name_of(field)); };
     if (step.kind == StepKind::self_boxes) upload_borne(twin);
-    if (uses(ContactField::displacements) && step.kind != StepKind::self_gather) upload_displacements(twin);
+    for (const auto& [field, values] : {std::pair{ContactField::displacements, &twin.displacements},
+                                        {ContactField::last_motions, &twin.last_motions}})
+        if (uses(field) && step.kind != StepKind::self_gather) upload_motions(field, *values);
     for (const auto& [field, values] : {std::pair{ContactField::before, &twin.before},
                                         {ContactField::velocities, &twin.velocities},
                                         {ContactField::made_good, &twin.made_good},
@@ -129,11 +131,10 @@ void ContactMirror::upload_shares(const Step& step, const TwinContact& twin) {
                          static_cast<std::size_t>(round - 1) * bytes.size(), bytes);
 }
 
-void ContactMirror::upload_displacements(const TwinContact& twin) const {
-    std::vector<vec4> all = image(ContactField::displacements);
-    for (std::size_t place = 0; place < all.size(); ++place)
-        all[place] = texel(xyz(twin.displacements[place]), all[place].w);
-    vulkan::upload(device_, pool_.image(name_of(ContactField::displacements)), std::as_bytes(std::span(all)));
+void ContactMirror::upload_motions(ContactField field, const std::vector<vec4>& values) const {
+    std::vector<vec4> all = image(field);
+    for (std::size_t place = 0; place < all.size(); ++place) all[place] = texel(xyz(values[place]), all[place].w);
+    vulkan::upload(device_, pool_.image(name_of(field)), std::as_bytes(std::span(all)));
 }
 
 void ContactMirror::upload_touching(const TwinContact& twin) const {
@@ -178,6 +179,9 @@ void ContactMirror::add_fields(const Step& step, const Names& written, const Twi
         add_places(step, ContactField::positions, image(ContactField::positions), twin.positions, twin, fields);
     if (wrote(ContactField::displacements))
         add_places(step, ContactField::displacements, image(ContactField::displacements), twin.displacements, twin,
+                   fields);
+    if (wrote(ContactField::last_motions))
+        add_places(step, ContactField::last_motions, image(ContactField::last_motions), twin.last_motions, twin,
                    fields);
     if (wrote(ContactField::supports)) add_supports(step, twin, fields);
     if (wrote(ContactField::boxes) && step.kind == StepKind::self_boxes) add_boxes(twin, fields);

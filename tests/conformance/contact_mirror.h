@@ -56,7 +56,7 @@ class ContactMirror {
     void put(ContactField field, std::span<const std::byte> bytes) const;
     glsl::SelfRecord record() const { return list<glsl::SelfRecord>(ContactField::record).front(); }
 
-    void upload_displacements(const TwinContact& twin) const;
+    void upload_motions(ContactField field, const std::vector<glsl::vec4>& values) const;
     void upload_touching(const TwinContact& twin) const;
     void upload_sums(const TwinContact& twin) const;
     void upload_borne(const TwinContact& twin) const;

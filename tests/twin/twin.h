@@ -83,7 +83,7 @@ struct TwinContact {
 
     const SelfContact* model;
     std::vector<int> owners;
-    std::vector<glsl::vec4> positions, displacements;
+    std::vector<glsl::vec4> positions, displacements, last_motions;
     std::vector<glsl::SelfBox> boxes;
     std::vector<TwinPair> pairs;
     std::vector<TwinTouch> touching;

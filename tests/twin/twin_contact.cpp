@@ -116,13 +116,6 @@ vec3 led_out(const TwinPlace& where, std::size_t particle, vec3& displacement, v
     return whole;
 }
 
-/// Returns what is kept as the displacement of the substep before that of a particle that is touched.
-vec3 before_touched(const TwinPlace& where, std::size_t particle, vec3 displacement) {
-    if (!where.step.after_impulses) return displacement;
-    const vec4& was = where.contact->before[place_on_sheet(where.step.push<SelfClothPush>(), particle)];
-    return was.w == self_pushed || was.w == self_pushed_and_led ? xyz(was) : displacement;
-}
-
 void run_collide(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const CollisionPush& push = model.collision;
@@ -159,12 +152,13 @@ void run_collide(const TwinPlace& where) {
         if (!touched) continue;
         const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
         const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
-        if (step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f)) {
+        const bool lies = step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f);
+        if (lies) {
             const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;
             state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
             state[Field::support_grip][i] = on_grip;
         }
-        where.before()[i] = texel(before_touched(where, i, displacement));
+        if (step.after_impulses || !lies) where.before()[i] = texel(displacement);
         if (model.scheme.second_order) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_contact);

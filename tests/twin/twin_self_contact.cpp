@@ -19,8 +19,8 @@ float corner_side(bool edges, int k) { return k == 0 || (edges && k == 1) ? 1.0f
 /// A step of contact: each function is a pass over the sheet.
 class ContactStep {
   public:
-    ContactStep(TwinContact& contact, const SelfContactPush& push)
-        : contact_(contact), model_(*contact.model), push_(push) {}
+    ContactStep(TwinContact& contact, const SelfContactPush& push, bool looks_back = false, bool ends_frame = false)
+        : contact_(contact), model_(*contact.model), push_(push), looks_back_(looks_back), ends_frame_(ends_frame) {}
 
     void boxes();
     void crossings();
@@ -65,6 +65,11 @@ class ContactStep {
     vec3 displacement(uint place) const { return xyz(contact_.displacements[place]); }
     float inverse_mass(uint place) const { return contact_.positions[place].w; }
     bool held(uint place) const { return !(inverse_mass(place) > 0.0f); }
+    /// The motion that impulses of this step change.
+    vec3 changed(uint place) const {
+        return xyz(looks_back_ ? contact_.last_motions[place] : contact_.displacements[place]);
+    }
+    bool begins_with_none() const { return looks_back_ && push_.round == 0; }
     vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
     vec3 bounded(uint place) const {
         vec3 moved = displacement(place);
@@ -124,6 +129,9 @@ class ContactStep {
     vec3 motion_in_round(uint place, float mass) const;
     void work(TwinTouch& pair);
     float mass_of(uint corner, const SelfCloth& cloth) const { return inverse_mass(place(corner)) * cloth.lightness; }
+    void clear_rounds(std::size_t place) {
+        for (std::size_t round = 1; round <= self_iterations; ++round) contact_.sums[place].units[round] = {};
+    }
     void move_to(std::size_t place, vec3 displacement) {
         contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
         contact_.before[place].w = self_pushed;
@@ -132,6 +140,7 @@ class ContactStep {
     TwinContact& contact_;
     const SelfContact& model_;
     const SelfContactPush& push_;
+    bool looks_back_, ends_frame_;
 };
 
 SelfBox ContactStep::cell_box(ivec2 own) const {
@@ -325,8 +334,8 @@ vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
 }
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
-    const vec3 impulse = impulse_at(static_cast<std::size_t>(push_.round), place);
-    const vec3 moved = self_added(displacement(place), self_moved_by(impulse, mass));
+    const vec3 impulse = begins_with_none() ? vec3{} : impulse_at(static_cast<std::size_t>(push_.round), place);
+    const vec3 moved = self_added(changed(place), self_moved_by(impulse, mass));
     return self_relative_motion(supported(moved, contact_.supports[place]), xyz(contact_.record.carried));
 }
 
@@ -345,10 +354,12 @@ void ContactStep::work(TwinTouch& pair) {
     const float yields =
         self_yields(touch.weights, {mass[0], mass[1], mass[2], mass[3]}, {holds[0], holds[1], holds[2], holds[3]});
     const vec3 relative = self_sum(touch.weights, {moved[0], moved[1], moved[2], moved[3]});
+    if (begins_with_none()) touch.impulse = texel({}, touch.impulse.w);
     const vec3 impulse = self_next_impulse(touch, relative, yields);
     touch.impulse = texel(impulse, touch.impulse.w);
     const auto round = static_cast<std::size_t>(push_.round);
     add_impulse(round + 1, pair.edges, all, touch.weights, impulse);
+    if (looks_back_) return;
     if (round == 0)
         add_impulse(self_sum_of_thickness, pair.edges, all, touch.weights,
                     xyz(touch.normal) * self_leading(touch, yields));
@@ -357,7 +368,7 @@ void ContactStep::work(TwinTouch& pair) {
 }
 
 void ContactStep::contact() {
-    if (push_.round == 0) contact_.borne.clear();
+    if (push_.round == 0 && !looks_back_) contact_.borne.clear();
     for (TwinTouch& pair : contact_.touching) work(pair);
 }
 
@@ -367,11 +378,16 @@ void ContactStep::push() {
         if (!owned(i) || held(at)) continue;
         const bool led = !contact_.led.empty();
         const vec3 by = led ? contact_.led[static_cast<std::size_t>(contact_.owners[i])] : vec3{};
+        const vec3 impulse = impulse_at(self_iterations, at);
+        if (ends_frame_ && !looks_back_ && (led || contact_.sums[i].weight != 0)) clear_rounds(i);
         if (contact_.sums[i].weight == 0 && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) continue;
-        const vec3 displacement = xyz(contact_.displacements[i]);
         const float mass = inverse_mass(at) * cloth_at(i).lightness;
-        vec3 velocity = self_added(displacement, self_moved_by(impulse_at(self_iterations, at), mass));
+        vec3 velocity = self_added(changed(at), self_moved_by(impulse, mass));
         if (led) velocity = self_led(velocity, by);
+        if (looks_back_) {
+            contact_.last_motions[i] = texel(velocity);
+            continue;
+        }
         const vec3 leading = self_moved_by(impulse_at(self_sum_of_thickness, at), mass);
         const vec3 good = self_led_by(leading, support_normal(contact_.supports[i]));
         contact_.velocities[i] = texel(velocity);
@@ -431,10 +447,10 @@ void ContactStep::cut_short(std::size_t cloth) {
         const bool pushed = by == self_pushed || by == self_pushed_and_led;
         if (!is_cut && by == 0.0f) continue;
         const vec3 own = by >= self_led_out ? self_own_motion(moved, xyz(contact_.led_ways[i])) : moved;
-        contact_.velocities[i] =
-            texel(pushed ? self_velocity(own, xyz(contact_.velocities[i]), xyz(contact_.made_good[i]),
-                                         support_normal(contact_.supports[i]))
-                         : own);
+        const vec3 by_impulses = xyz(contact_.velocities[i]), good = xyz(contact_.made_good[i]);
+        const vec3 normal = support_normal(contact_.supports[i]);
+        contact_.velocities[i] = texel(pushed ? self_velocity(own, by_impulses, good, normal) : own);
+        if (self_was_touched(own, by_impulses, good, normal)) contact_.last_motions[i] = contact_.velocities[i];
         vec3 made = moved;
         if (is_cut) {
             ++record.truncated;
@@ -442,7 +458,7 @@ void ContactStep::cut_short(std::size_t cloth) {
             record.most_lag = std::max(record.most_lag, floatBitsToUint(self_lag(made, moved)));
         }
         move_to(i, made);
-        if (!is_cut && !pushed) contact_.before[i].w = self_led_out;
+        if (!pushed) contact_.before[i].w = self_led_out;
     }
 }
 
@@ -453,6 +469,7 @@ TwinContact::TwinContact(const SelfContact& contact)
       owners(contact.owners()),
       positions(owners.size()),
       displacements(owners.size()),
+      last_motions(owners.size()),
       supports(owners.size()),
       before(owners.size()) {}
 
@@ -471,7 +488,7 @@ void Twin::run_contact(const Step& step) {
         {StepKind::self_contact, &ContactStep::contact}, {StepKind::self_push, &ContactStep::push},
         {StepKind::self_limit, &ContactStep::limit},
     };
-    ContactStep contact(*contact_, step.push<SelfContactPush>());
+    ContactStep contact(*contact_, step.push<SelfContactPush>(), step.looks_back, step.last);
     for (const auto& [kind, function] : rows)
         if (kind == step.kind) (contact.*function)();
 }

@@ -50,6 +50,7 @@ void run_self_gather(const TwinPlace& where) {
         const std::size_t place = place_on_sheet(push, i);
         meeting->positions[place] = state[Field::position][i];
         meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
+        if (step.last) meeting->last_motions[place] = where.before()[i];
         if (!state[Field::support].empty())
             meeting->supports[place] = {std::exchange(state[Field::support][i], vec4{}), state[Field::support_grip][i]};
     }
@@ -60,18 +61,19 @@ void run_self_return(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     cut_short(*meeting, step.cloth);
-    const bool ends_frame = step.last && !state[Field::end_excess].empty();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const std::size_t place = place_on_sheet(push, i);
+        const vec3 normal = support_normal(meeting->supports[place]);
+        const bool ends_lying = step.last && state[Field::position][i].w > 0.0f &&
+                                (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f);
+        if (ends_lying) where.before()[i] = texel(xyz(state[Field::displacement][i]));
         if (meeting->before[place].w == 0.0f) continue;
         const vec3 velocity = xyz(meeting->velocities[place]);
         vec4& start = state[Field::position][i];
         start = texel(self_start(xyz(start), xyz(meeting->displacements[place]), velocity), start.w);
         state.move_to(i, velocity);
-        if (meeting->before[place].w == self_pushed && (model.scheme.second_order || ends_frame)) {
-            vec4& last = where.before()[i];
-            last = texel(self_changed_alike(xyz(last), xyz(meeting->before[place]), velocity));
-        }
+        if (ends_lying || (step.last && meeting->before[place].w == self_pushed))
+            where.before()[i] = texel(xyz(meeting->last_motions[place]));
         if (!model.scheme.second_order) continue;
         uint& hold = state.integers(Field::line_control)[control_hold];
         hold = std::max(hold, line_hold_contact);
