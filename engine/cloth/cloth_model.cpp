@@ -15,10 +15,11 @@ double largest_coordinate(const Cloth& cloth) {
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
-      scheme(
-          row_of(scene.solver.method)
-              .scheme(*this, {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),
-                              scene.solver.strain_damping, !scene.colliders.empty(), options.skip, options.device})) {
+      turn(kept_turn(scene, *this)),
+      scheme(row_of(scene.solver.method)
+                 .scheme(*this,
+                         {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),
+                          scene.solver.strain_damping, !scene.colliders.empty(), turn, options.skip, options.device})) {
     set_constants(scene, scene.cloths[cloth_index], options.air || scene.wind.blows());
 }
 

@@ -37,6 +37,7 @@ struct ClothModel : ClothGeometry {
     float edge_reach = 0;
     std::size_t member = 0;         ///< which of the model's scenes the cloth belongs to
     std::size_t collider_list = 0;  ///< contact keeps its particles out of this list of SimulationModel::kept_colliders
+    std::optional<KeptTurn> turn;   ///< how the cloth turns freely
     MethodScheme scheme;
     glsl::WindPush wind;            ///< its member `substep` is set in each substep
     glsl::CollisionPush collision;  ///< its member `first` is set in each substep

@@ -10,6 +10,7 @@
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
+#include "shared/rotation_types.h"
 
 namespace drape {
 
@@ -37,6 +38,7 @@ bool keeps_excess(Context c) { return judged(c) || c.model.self_contact; }
 bool keeps_before(Context c) {
     return second_order(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
 }
+bool rotates(Context c) { return !c.cloth.scheme.ended.empty(); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.colliders.empty(); }
@@ -55,6 +57,7 @@ FieldExtent spring_list(Context c) {
 FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
+FieldExtent torque_list(Context c) { return {glsl::torque_texels, torque_count(c.cloth.grid)}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
 FieldExtent particle_list(Context c) { return {c.cloth.skin.size()}; }
@@ -111,6 +114,8 @@ std::vector<FieldRow> motion_rows() {
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},
+        {Field::torques, "torques", image, vector, frame, rotates, torque_list},
+        {Field::angular_error, "angular error", image, vector, state, rotates, one},
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},
         {Field::lifted, "lifted", stored, vector, frame, cut_by_edges, particles},
@@ -206,6 +211,10 @@ FieldExtent line_scratch_extent(const Grid& grid) {
     const auto in_groups = [](std::uint64_t lines) { return (lines + group - 1) / group * group; };
     const std::uint64_t places = std::max(in_groups(rows) * columns, in_groups(columns) * rows);
     return {width, (2 * places + width - 1) / width};
+}
+
+std::uint32_t torque_count(const Grid& grid) {
+    return static_cast<std::uint32_t>((grid.particle_count() - 1) / glsl::torque_particles + 1);
 }
 
 std::uint32_t residual_strip_count(const Grid& grid) {

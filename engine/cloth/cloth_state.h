@@ -36,6 +36,8 @@ enum class Field : std::uint8_t {
     statistics_reference,      ///< xyz: point that positions are summed relative to, m; w: thickness, m
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     line_control_spare,        ///< that of every other substep
+    torques,                   ///< within a substep: TorqueSum of each workgroup (shaders/torque.comp)
+    angular_error,             ///< xyz: angular momentum that the frame's substeps took back (Rotation::taken)
     wind_force,                ///< N
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< displacement after the second round of boxes' edges, m; w as before
@@ -104,6 +106,8 @@ std::size_t draw_list_capacity(std::size_t count);
 /// Returns the size of an image with two texels for each particle of the lines of any direction, filled up to whole
 /// workgroups of lines.
 FieldExtent line_scratch_extent(const Grid& grid);
+/// Returns the number of workgroups that sum torques, each of which leaves a record.
+std::uint32_t torque_count(const Grid& grid);
 /// Returns the number of workgroups of the residual pass, each of which leaves a record.
 std::uint32_t residual_count(const Grid& grid);
 /// Returns the number of rows of invocations of the residual pass.

@@ -12,6 +12,7 @@
 #include "cloth/cloth_geometry.h"
 #include "cloth/device_costs.h"
 #include "cloth/hang.h"
+#include "cloth/kept_turn.h"
 #include "cloth/step.h"
 
 namespace drape {
@@ -23,7 +24,8 @@ struct MethodSettings {
     Vec3 gravity;                        ///< m/s^2, at the start
     double strain_damping;               ///< SolverSettings' value
     bool collides;                       ///< the scene has colliders
-    bool skip = true;                    ///< false: do work that changes no bit, too
+    std::optional<KeptTurn> turn{};
+    bool skip = true;  ///< false: do work that changes no bit, too
     DeviceKind device = DeviceKind::cpu;
 };
 
@@ -34,6 +36,7 @@ struct MethodScheme {
     std::vector<MethodStep> prediction;  ///< before the motion of pins
     std::vector<MethodStep> once;        ///< after the motion of pins: bending
     std::vector<MethodStep> iterated;    ///< in each iteration
+    std::vector<MethodStep> ended;       ///< after the last one, before contact
 
     glsl::vec4 start{};  ///< displacement of free particles at the start, m: x(0) - x(-h), the half-kick start, or what
                          ///< else the prediction expects

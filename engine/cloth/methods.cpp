@@ -92,14 +92,14 @@ std::uint32_t whole_substeps(double substeps) { return static_cast<std::uint32_t
 
 std::vector<std::byte> bytes_of(const MethodScheme& scheme) {
     // The binding names every member, so a new member does not compile until it is added here.
-    const auto& [prediction, once, iterated, start, starts, spare_state, spare_displacement, spare_tension,
+    const auto& [prediction, once, iterated, ended, start, starts, spare_state, spare_displacement, spare_tension,
                  second_order, line_scratch, nested_table, carries_tension, release_stiffness, gathered_tension,
                  used_stiffness, used_bend, used_twist, following_substeps, skipped, compromises] = scheme;
     ByteList list;
     const auto add = [&list](const auto&... members) { (list.add(members), ...); };
-    add(prediction, once, iterated, start, spare_state, spare_displacement, spare_tension, second_order, line_scratch,
-        carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}), used_stiffness, used_bend,
-        used_twist, following_substeps);
+    add(prediction, once, iterated, ended, start, spare_state, spare_displacement, spare_tension, second_order,
+        line_scratch, carries_tension, release_stiffness, gathered_tension.value_or(glsl::TensionPush{}),
+        used_stiffness, used_bend, used_twist, following_substeps);
     for (const glsl::ivec4& entry : nested_table) list.add(entry);
     for (const glsl::vec4& each : starts) list.add(each);
     static_cast<void>(skipped), static_cast<void>(compromises);  // these are texts

@@ -11,6 +11,7 @@
 #include "shared/bend_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
+#include "shared/rotation_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
 
@@ -37,6 +38,8 @@ enum class StepKind {
     all_springs,
     line,
     nested,
+    torque,
+    rotate,
     tether,
     collider_edges,
     collide,
@@ -65,7 +68,7 @@ inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
-                 glsl::LinePush, glsl::NestedPush, glsl::SelfContactPush, glsl::SelfClothPush>;
+                 glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

@@ -144,6 +144,11 @@ struct StructureOf {
     StepConstants operator()(const glsl::NestedPush& push) const {
         return glsl::NestedPush{push.grid, push.block_count, push.first_pin, sign(push.rest_length)};
     }
+    StepConstants operator()(const glsl::RotationPush& push) const {
+        glsl::RotationPush structure{push.grid};
+        structure.sum_count = push.sum_count;
+        return structure;
+    }
     template <class Other>
     StepConstants operator()(const Other& other) const {
         return other;
@@ -168,6 +173,8 @@ bool in_images(const Step& step) {
         case StepKind::all_springs:
         case StepKind::line:
         case StepKind::nested:
+        case StepKind::torque:
+        case StepKind::rotate:
         case StepKind::tether:
         case StepKind::collider_edges:
         case StepKind::collide:
@@ -211,7 +218,7 @@ bool same_scheme(const MethodScheme& one, const MethodScheme& other) {
     };
     return fields(one) == fields(other) && same_steps(one.prediction, other.prediction) &&
            same_steps(one.once, other.once) && same_steps(one.iterated, other.iterated) &&
-           same_rounds(one.nested_table, other.nested_table);
+           same_steps(one.ended, other.ended) && same_rounds(one.nested_table, other.nested_table);
 }
 
 /// Returns whether the schedule puts the same steps around those of the method.

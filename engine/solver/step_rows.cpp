@@ -170,6 +170,8 @@ std::vector<StepRow> other_rows() {
          nullptr,
          tension_alias<glsl::LinePush>},
         {StepKind::nested, "nested boxes", {{plain, "nested.comp", over_nested_pins}}},
+        {StepKind::torque, "torque", {{plain, "torque.comp", over_torque_sums}}},
+        {StepKind::rotate, "rotation", {{plain, "rotate.comp", over_strips}}},
         {StepKind::tether, "tethers", {{plain, "tether.comp", over_strips}}, grid_push},
         {StepKind::collider_edges,
          collider_edges_label,

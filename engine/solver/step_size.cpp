@@ -146,6 +146,10 @@ DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pip
         1);
 }
 
+DispatchSize over_torque_sums(const StepPlace& place, const ComputePipeline&) {
+    return of_cloths(place, torque_count(place.cloth->model->grid) * glsl::workgroup_width, 1);
+}
+
 DispatchSize over_explicit_stream(const StepPlace& place, const ComputePipeline&) {
     return over_stream(place, glsl::stream_width, static_cast<int>(place.step.count));
 }

@@ -29,6 +29,8 @@ const std::vector<StepBound>& step_bounds() {
         {all_springs, 96, fixed, 0, "eight times spring"},
         {line, 12, lines, 0, "a root and two divisions for each spring, and each moves all that follow"},
         {nested, 12, lines, 0, "as line, along lines that cross"},
+        {torque, 64, fixed, 0, "divisions by masses and drag, added up"},
+        {rotate, 64, fixed, 0, "the roots of a matrix by six divisions, of the cloth's size over an arm"},
         {tether, 16, fixed, 0, "a root and a division for each of two tethers"},
         {collider_edges, 32, fixed, 0, "divisions of where a triangle cuts an edge; which edge is decided by them"},
         // Contact leaves what rests just as deep as its surface lets it be, so rounding says of any such particle

@@ -187,6 +187,30 @@ TEST(TwinLineTest, NestedBoxesWithHolesAndNoShear) {
     compare(scene);
 }
 
+/// A flag that its pole lets go, in wind, and free sheets with damping, which are summed in two workgroups, one alone
+/// and two together.
+TEST(TwinLineTest, ClothThatKeepsItsAngularMomentum) {
+    SceneDescription flag = free_lines();
+    Pin pole = test::pin_box(0, 0, 0, flag.cloths[0].grid[1] - 1);
+    pole.release = 0.15;
+    flag.cloths[0].placement = {{0, 1, 0}, {1, 0, 0}, {0, -1, 0}};
+    flag.cloths[0].pins = {pole};
+    flag.wind.velocity = {3, 0.5, 1};
+    SceneDescription free = test::thrown_sheet({47, 31}, 12);
+    free.solver.method = SolverMethod::line;
+    free.cloths[0].pins.clear();
+    free.cloths[0].damping = 0.5;
+    SceneDescription together = free;
+    add_second_cloth(together);
+    together.cloths[1].grid = together.cloths[0].grid;
+    together.cloths[1].pins.clear();
+    for (const SceneDescription& scene : {flag, free, together}) {
+        const SimulationModel model(scene);
+        for (const ClothModel& cloth : model.cloths) ASSERT_FALSE(cloth.scheme.ended.empty());
+        compare(scene);
+    }
+}
+
 TEST(TwinLineTest, TethersInSecondOrder) {
     SceneDescription scene = free_lines();
     scene.solver.tethers = true;

@@ -281,7 +281,7 @@ StepFunction function_of(StepKind kind) {
         std::map<StepKind, StepFunction> all;
         for (const auto& rows :
              {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(),
-              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows()})
+              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows()})
             for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
         return all;
     }();
