@@ -44,7 +44,7 @@ inline constexpr Fabric fabrics[] = {
     {"canvas", 0.34, {false, 5000, 150, 2e-4}, 0.6, "Cotton duck of 10 oz, which is its density; the rest estimated."},
     {"leather",
      0.56,
-     {false, 6000, 3000, 4.5e-5},
+     {false, 6000, 3000, 3e-5},
      0.6,
      "Sheep garment leather 0.8 mm thick: bend by the drape that Memon et al. 2021 measured; the rest estimated, as a "
      "homogeneous sheet of 10 MPa and 700 kg/m^3."},
