@@ -21,6 +21,7 @@ std::uint32_t air_of(const CutTopology& topology, int column, int row) {
 std::vector<std::uint32_t> air_bits(const CutTopology& topology) {
     const glsl::ivec2 size = topology.grid().size();
     std::vector<std::uint32_t> bits;
+    if (!topology.masked()) return bits;
     for (int row = 0; row < size.y; ++row)
         for (int column = 0; column < size.x; ++column) bits.push_back(air_of(topology, column, row));
     return bits;

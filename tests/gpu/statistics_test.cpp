@@ -286,11 +286,9 @@ TEST(StatisticsTest, RigidSpringsStoreNoEnergy) {
         scene.cloths[0].stiffness.rigid = true;
         scene.solver.method = method;
         const SimulationModel model(scene);
-        const TwinCloth state = crumpled_state(model, 1.2f, 0, 1);
-        const ClothStatistics statistics = cloth_statistics(model, model.cloths[0], expect_same_record(model, state));
-        EXPECT_EQ(statistics.elastic_energy, 0.0);
-        EXPECT_NEAR(statistics.stretch.rms, 0.2, 1e-5);
-        EXPECT_FALSE(statistics.penetration.has_value());
+        const auto record = expect_same_record(model, crumpled_state(model, 1.2f, 0, 1));
+        EXPECT_EQ(cloth_statistics(model, model.cloths[0], record).elastic_energy, 0.0);
+        EXPECT_NEAR(cloth_statistics(model, model.cloths[0], record).stretch.rms, 0.2, 1e-5);
     }
 }
 
