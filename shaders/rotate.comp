@@ -61,7 +61,7 @@ void main() {
     rotation = rotation_of(joined_sums(), push.axis, about.w == 0.0f);
     if (gl_GlobalInvocationID.xy == uvec2(0u)) {
         ivec2 own = ivec2(0, cloth_place());
-        vec3 before = vec3(0.0f);
+        vec3 before = vec3(-0.0f);  // the sum of nothing
         if (advance) before = imageLoad(angular_error_in, own).xyz;
         precise vec3 taken = before + rotation.taken;
         imageStore(angular_error_out, own, vec4(taken, 0.0f));

@@ -27,9 +27,10 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D wind_force;
 vec3 start, moved;  // position and displacement of the particle `about`, m
 bool second_order;  // all three are read before anything has branched (docs/devices.md)
 
+/// Returns the sum with a particle. One that is held has no mass here. Nothing branches: on the default device all
+/// numbers of the sum would be blended at the end of every branch.
 TorqueSum with_particle(TorqueSum sum, ivec2 texel) {
     vec4 position = LOAD(position, texel), now = LOAD(displacement, texel);
-    if (position.w == 0.0f) return sum;
     vec3 before = LOAD(displacement_before, texel).xyz;
     vec4 force = vec4(0.0f);
     if (windy) force = LOAD(wind_force, texel);
@@ -44,11 +45,11 @@ void main() {
     int group = int(gl_WorkGroupID.x), count = push.grid.x * push.grid.y;
     int place = group * torque_particles + int(gl_LocalInvocationIndex);
     int end = min((group + 1) * torque_particles, count);
-    for (;;) {
-        if (place < end) sum = with_particle(sum, texel_of(place, push.grid.x));
-        place += workgroup_width;
-        if (place >= end) break;
-    }
+    if (place < end)
+        do {  // loops have their tests at the bottom (include/every.h)
+            sum = with_particle(sum, texel_of(place, push.grid.x));
+            place += workgroup_width;
+        } while (place < end);
     sum = joined_over_workgroup(sum);
     if (gl_LocalInvocationIndex != 0u) return;
     int row = int(cloth_place()) * push.sum_count + group;

@@ -57,14 +57,14 @@ SHARED AirImpulse air_impulse(vec3 displacement, vec3 before, float mass, float 
     return AirImpulse(given, whole);
 }
 
-/// Returns the terms of a particle that is not held. `start` and `moved` are position and displacement of the particle
-/// `about`; `now` is the displacement with the share beside it that drag takes, and `force` that of the air.
+/// Returns the terms of a particle, zeros of one that is held. `start` and `moved` are position and displacement of the
+/// particle `about`; `now` is the displacement with the share beside it that drag takes, and `force` that of the air.
 SHARED TorqueSum torque_on(vec4 position, vec3 start, vec4 now, vec3 moved, vec3 before, vec3 force, bool windy,
                            bool second_order, RotationPush push) {
     vec3 displacement = vec3(now.x, now.y, now.z);
     vec3 gravity_step = vec3(push.gravity_step.x, push.gravity_step.y, push.gravity_step.z);
     precise vec3 arm = vec3(position.x, position.y, position.z) - start;
-    float mass = reciprocal(position.w);
+    float mass = position.w > 0.0f ? reciprocal(position.w) : 0.0f;
     vec3 given = own_impulse(displacement, before, mass, gravity_step, push.damping_loss);
     if (!windy) return torque_of(arm, mass, given, ordered_cross(arm, given));
     float ratio = second_order ? push.drag_ratio : 1.0f;

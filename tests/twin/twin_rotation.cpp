@@ -34,7 +34,6 @@ void run_torque(const TwinPlace& where) {
         const std::size_t begin = group * torque_particles;
         for (std::size_t i = begin; i < std::min(begin + torque_particles, count); ++i) {
             const vec4 position = state[Field::position][i];
-            if (position.w == 0.0f) continue;
             TorqueSum& lane = lanes[(i - begin) % workgroup_width];
             lane = joined(lane, torque_on(position, start, state[Field::displacement][i], moved,
                                           xyz(state[Field::displacement_before][i]), xyz(state.force_on(i)),
@@ -63,7 +62,7 @@ void run_rotate(const TwinPlace& where) {
     const vec4 first = state[Field::position][arm_origin(model, push)];
     const Rotation rotation = rotation_of(joined_lanes(lanes), push.axis, first.w == 0.0f);
     vec4& taken = state[Field::angular_error][0];
-    taken = texel((step.substep > 0 ? xyz(taken) : vec3{0, 0, 0}) + rotation.taken);
+    taken = texel((step.substep > 0 ? xyz(taken) : vec3{-0.0f, -0.0f, -0.0f}) + rotation.taken);
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const vec4 position = state[Field::position][i];
         if (position.w == 0.0f) continue;
