@@ -109,13 +109,20 @@ SolverCandidate candidate(const Method& method, const SceneDescription& scene, d
         substeps = std::max(substeps, method.substeps(hang_of(scene, cloth), frame, tolerance, costs_of(device)));
     double swings = 1;
     for (const Cloth& cloth : scene.cloths) swings = std::max(swings, std::ceil(frame / swing_substep(scene, cloth)));
-    auto least = static_cast<std::uint32_t>(std::min<double>(swings, method.most_substeps));
-    for (const Cloth& cloth : scene.cloths) least = following_substeps(method, scene, cloth, least);
+    const auto following = [&](double substeps_before) {
+        auto least = static_cast<std::uint32_t>(std::min<double>(substeps_before, method.most_substeps));
+        for (const Cloth& cloth : scene.cloths) least = following_substeps(method, scene, cloth, least);
+        return least;
+    };
+    const std::uint32_t calm = following(swings);
     SolverCandidate result{
-        method.method, static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), method.most_substeps)), least,
-        0, method.trust != Method::Trust::none && std::max<double>(substeps, least) <= method.most_substeps};
-    result.least_substeps = std::min(least, method.most_substeps);
-    result.substeps = std::clamp(result.substeps, result.least_substeps, method.most_substeps);
+        method.method,
+        static_cast<std::uint32_t>(std::min<double>(std::ceil(substeps), method.most_substeps)),
+        std::min(following(1), method.most_substeps),
+        std::min(calm, method.most_substeps),
+        0,
+        method.trust != Method::Trust::none && std::max<double>(substeps, calm) <= method.most_substeps};
+    result.substeps = std::clamp(result.substeps, result.calm_substeps, method.most_substeps);
     const bool has_companions = scene.solver.estimate_error.value_or(true);
     const std::uint32_t beside = has_companions ? companion_substeps(method, result.substeps) : 0;
     for (const Cloth& cloth : scene.cloths)
@@ -139,7 +146,7 @@ std::string reason_for(const std::vector<SolverCandidate>& candidates, double to
 }  // namespace
 
 SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
-    if (scene.solver.method != SolverMethod::automatic) return {scene.solver, {}, "as the scene asks", 1};
+    if (scene.solver.method != SolverMethod::automatic) return {scene.solver, {}, "as the scene asks", 1, 1};
     const double tolerance = scene.solver.tolerance > 0 ? scene.solver.tolerance : default_tolerance;
     std::vector<SolverCandidate> candidates;
     for (const Method& method : methods()) candidates.push_back(candidate(method, scene, tolerance, device));
@@ -147,12 +154,13 @@ SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device) {
         return a.reaches != b.reaches ? a.reaches : a.predicted_ms < b.predicted_ms;
     });
     const SolverCandidate& best = candidates.front();
-    SolverChoice choice{scene.solver, candidates, reason_for(candidates, tolerance), 1};
+    SolverChoice choice{scene.solver, candidates, reason_for(candidates, tolerance), 1, 1};
     choice.settings.method = best.method;
     choice.settings.iterations = 1;
     choice.settings.tolerance = tolerance;
     choice.settings.substeps = first_rung(row_of(best.method), best.substeps);
     choice.least_substeps = best.least_substeps;
+    choice.calm_substeps = best.calm_substeps;
     return choice;
 }
 

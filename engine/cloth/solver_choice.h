@@ -22,6 +22,7 @@ struct SolverCandidate {
     SolverMethod method;
     std::uint32_t substeps;
     std::uint32_t least_substeps;  ///< substeps that follow bending (MethodScheme::following_substeps)
+    std::uint32_t calm_substeps;   ///< substeps that follow a swing, too
     double predicted_ms;           ///< per frame, all cloths; only for comparing methods
     bool reaches;                  ///< by its law, the method keeps the tolerance within the limits of the settings
 };
@@ -31,6 +32,7 @@ struct SolverChoice {
     std::vector<SolverCandidate> candidates;  ///< the chosen one first; empty when the scene names its method
     std::string reason;                       ///< one sentence, with the numbers of the laws
     std::uint32_t least_substeps;             ///< a closed loop takes no fewer
+    std::uint32_t calm_substeps;              ///< nor fewer than these where the error is not known to be small
 };
 
 /// Returns the settings in use for a scene of method `auto`; for any other method, the scene's own.
@@ -40,7 +42,8 @@ struct SolverChoice {
 ///   relax     error = F 0.59 n g h^2/(2 l)
 ///   explicit  error = F 0.41 g L/c_s^2, c_s the wave speed that the clamped micro-step follows
 ///   line      cheapest at h sqrt(g L)/l = 1.3 when held by an edge, 0.45 or less otherwise; iterations do the rest
-/// And no substep is longer than 0.0088 sqrt(size / gravity), which a swing needs, or than bending needs.
+/// And no substep is longer than 0.0088 sqrt(size / gravity), which a swing needs, or than bending needs. A closed loop
+/// takes longer ones than the former where it finds the error far below its limit.
 SolverChoice choose_solver(const SceneDescription& scene, DeviceKind device);
 
 }  // namespace drape

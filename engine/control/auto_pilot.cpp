@@ -35,8 +35,8 @@ std::unique_ptr<Pilot> make_pilot(const SimulationModel& model) {
 
 AutoPilot::AutoPilot(const SimulationModel& model)
     : model_(model),
-      control_(row_of(model.scene.solver.method), model.scene.solver.substeps, model.choice.least_substeps,
-               probe_length(model)),
+      control_(row_of(model.scene.solver.method), model.scene.solver.substeps,
+               {model.choice.least_substeps, model.choice.calm_substeps}, probe_length(model)),
       watch_(model),
       sleep_(model),
       drive_(model),
@@ -285,10 +285,13 @@ void AutoPilot::keep() {
     simulated_ = kept_.first + segment.frame_count;
     attempt_.next = 0;
     if (!model_.has_companions()) {
-        control_.accumulated(unknown_share);
+        control_.accumulated({});
         return finish();
     }
-    if (stated_.sensitivity.is_lost()) return finish();  // no error of positions is stated any more
+    if (stated_.sensitivity.is_lost()) {  // no error of positions is stated any more
+        control_.accumulated({.share = 0});
+        return finish();
+    }
     attempt_.phase = Phase::companion;
 }
 
@@ -316,7 +319,10 @@ void AutoPilot::take_differences(StateStep step, std::span<const double> differe
     }
     const bool begins = sensitivity.begins(last, error, kept_.effort.predictable);
     if (begins) sensitivity.begin(last);
-    control_.accumulated(sensitivity.excuses() ? 0 : error.share());
+    if (sensitivity.excuses())
+        control_.accumulated({.share = 0});
+    else if (!sleep_.is_still())
+        control_.accumulated({error.share(), error.growth()});
     if (begins)
         attempt_.phase = Phase::disturb;
     else

@@ -30,12 +30,18 @@ std::optional<Vec3> normal_of(const ClothModel& cloth) {
     return normal;
 }
 
+/// Returns whether pins move against each other, or against what is held.
+bool pins_may_meet(const ClothModel& cloth) {
+    const auto moves = [](const DynamicPin& pin) { return pin.path.moves(); };
+    const auto moving = std::ranges::count_if(cloth.dynamic_pins, moves);
+    const auto held = std::ranges::count_if(cloth.position, [](const glsl::vec4& at) { return !(at.w > 0); });
+    return moving > 1 || (moving == 1 && held > static_cast<std::ptrdiff_t>(cloth.pinned.size()));
+}
+
 /// Returns whether cloth in a plane that gravity does not leave may be pushed together: some of it is above all that is
 /// held, or stands on a collider, its pins move, or it starts shorter than it is.
 bool is_pushed(const SimulationModel& model, const ClothModel& cloth, const Vec3& gravity) {
-    const bool shorter = std::ranges::min(cloth.placement.scale) < 1;
-    if (shorter || std::ranges::any_of(cloth.dynamic_pins, [](const DynamicPin& pin) { return pin.path.moves(); }))
-        return true;
+    if (std::ranges::min(cloth.placement.scale) < 1 || pins_may_meet(cloth)) return true;
     if (length(gravity) == 0) return false;
     double highest_held = -std::numeric_limits<double>::infinity(), highest = highest_held;
     for (std::size_t k = 0; k < cloth.position.size(); ++k) {

@@ -18,7 +18,8 @@ bool compares_at(const SimulationModel& model, std::uint32_t last, bool probes) 
     return probes || last % probe_length(model) == 0;
 }
 
-MotionError::MotionError(const SimulationModel& model) : model_(model), held_(model.cloths.size()) {}
+MotionError::MotionError(const SimulationModel& model)
+    : model_(model), held_(model.cloths.size()), apart_(model.cloths.size()) {}
 
 double MotionError::order() const { return error_order(row_of(model_.scene.solver.method), model_.closed_loop()); }
 
@@ -36,7 +37,11 @@ void MotionError::saw(std::uint32_t frame, std::uint32_t substeps, std::span<con
     const double time = std::max(frame / model_.scene.time.fps, least_time);
     weigh(substeps, passed, kept);
     last_frame_ = frame;
+    growth_ = 0;
     for (std::size_t cloth = 0; cloth < apart.size(); ++cloth) {
+        const double grown = richardson_error(order(), ratio_, std::max(apart[cloth] - apart_[cloth], 0.0));
+        growth_ = std::max(growth_, grown / (motion_limit(model_, cloth) * passed));
+        apart_[cloth] = apart[cloth];
         held_[cloth] = std::max(richardson_error(order(), ratio_, apart[cloth]), kept * held_[cloth]);
         const double allowed = motion_limit(model_, cloth) * time;
         if (cloth > 0 && held_[cloth] / allowed <= share()) continue;

@@ -37,14 +37,17 @@ class MotionError {
     /// Returns the error divided by what is allowed; 0 where nothing was compared.
     double share() const { return std::isnan(error_) ? 0 : error_ / allowed_; }
 
+    /// Returns how fast the worst cloth's error grew between the last two comparisons, divided by the motion's limit.
+    double growth() const { return growth_; }
+
     /// Returns the error in the scene's last frame, m, if it keeps growing in proportion to time.
     double at_end() const;
 
     /// Writes or reads what is known. Returns whether what was read is possible.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(held_, ratio_, weight_, last_frame_, error_, allowed_);
-        return held_.size() == model_.cloths.size();
+        archive(held_, apart_, growth_, ratio_, weight_, last_frame_, error_, allowed_);
+        return held_.size() == model_.cloths.size() && apart_.size() == held_.size();
     }
 
   private:
@@ -53,7 +56,9 @@ class MotionError {
 
     const SimulationModel& model_;
     std::vector<double>
-        held_;           ///< by cloth, m: the error is kept for a while, since two runs of a swing meet now and then
+        held_;  ///< by cloth, m: the error is kept for a while, since two runs of a swing meet now and then
+    std::vector<double> apart_;  ///< by cloth, m: the distances that were compared last
+    double growth_ = 0;
     double ratio_ = 1;   ///< of the companion's time step to the run's, averaged over the time in which errors arose
     double weight_ = 0;  ///< the weight of that average
     std::uint32_t last_frame_ = 0;

@@ -28,6 +28,9 @@ class Sleep {
     /// repeat wakes the cloths, with the state in which they fell asleep.
     bool asleep(std::uint32_t frame);
 
+    /// Returns whether everything was as still in the last frame. Other substeps might move it.
+    bool is_still() const { return !speeds_.empty() && speeds_.back() <= 1; }
+
     /// Drops the speeds of past frames, because a cloth that tore will move.
     void wake() { speeds_.clear(); }
 

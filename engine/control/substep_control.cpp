@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace drape {
 
@@ -18,6 +19,11 @@ constexpr double most_lag_followed = 3;
 constexpr double comfort = 0.6;
 /// Fewer substeps are tried without waiting where the errors are below this share of `comfort`.
 constexpr double very_easy = 0.2;
+/// Probes' times without an event until substeps may be longer than a swing needs, since an error of its speed takes as
+/// long to show; the share of such an error below which they become longer; what is left of a growth of the error from
+/// one comparison to the next (1/e in half a second), since two runs of a swing meet now and then.
+constexpr std::uint32_t calm_after = 5;
+constexpr double calm_comfort = 0.3, calm_kept = 0.82;
 /// Where more substeps do not reduce the motion's error, fewer substeps are used as long as they increase it by less
 /// than this factor.
 constexpr double unpredictable_slack = 6;
@@ -26,48 +32,44 @@ constexpr double sensitive_slack = 3;
 
 }  // namespace
 
-SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least,
+SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, const Floors& floors,
                                std::uint32_t probe_length)
-    : rungs_(substep_rungs(method)),
-      resolves_(method.trust == Method::Trust::resolves),
-      probe_length_(probe_length),
-      lowest_(rung_of(least)),
-      proposed_(std::max(lowest_, rung_of(proposed))),
-      rung_(proposed_) {}
+    : ladder_{substep_rungs(method), method.trust == Method::Trust::resolves, 0, 0, 0}, probe_length_(probe_length) {
+    ladder_.lowest = rung_of(floors.least);
+    ladder_.calm = std::max(ladder_.lowest, rung_of(floors.calm));
+    ladder_.proposed = std::max(ladder_.calm, rung_of(proposed));
+    rung_ = ladder_.proposed;
+}
 
 /// Returns the first rung with at least so many substeps, or the top.
 std::size_t SubstepControl::rung_of(double substeps) const {
-    const auto place = std::ranges::find_if(rungs_, [&](std::uint32_t rung) { return rung >= substeps; });
-    return std::min(static_cast<std::size_t>(place - rungs_.begin()), rungs_.size() - 1);
+    const auto place = std::ranges::find_if(ladder_.rungs, [&](std::uint32_t rung) { return rung >= substeps; });
+    return std::min(static_cast<std::size_t>(place - ladder_.rungs.begin()), ladder_.rungs.size() - 1);
 }
 
 const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
-    if (eventful) interval_ = 1;
-    if (eventful) until_probe_ = 0;
-    tried_ = std::max(eventful ? std::min(rung_ + 2, rungs_.size() - 1) : rung_, passage_rung_);
-    const bool probes = until_probe_ == 0 && room >= 2 && !resolves_;
-    began_ = rung_;
-    before_ = {};
-    top_motion_ = 0;
-    hopeless_ = false;
-    only_motion_failed_.reset();
-    turned_back_ = false;
-    needed_ = lowest_;
-    lagged_ = {};
-    segment_ = {rungs_[tried_], probes ? std::min(room, probe_length_) : 1, probes};
+    if (eventful) {
+        probes_.interval = 1;
+        probes_.until = 0;
+        return_to_calm();
+    }
+    const std::size_t wanted = eventful ? std::min(rung_ + 2, ladder_.rungs.size() - 1) : rung_;
+    const bool probes = probes_.until == 0 && room >= 2 && !ladder_.resolves;
+    attempt_ = {.began = rung_, .rung = std::max(wanted, contact_.rung), .needed = ladder_.lowest};
+    segment_ = {ladder_.rungs[attempt_.rung], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
-    if (lags_alike(judgement)) until_lag_ = lag_pause * probe_length_;
-    const double lag = until_lag_ == 0 ? judgement.lag : 0;
-    passage_rung_ = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
-    if (turned_back_) return accept_unpredictable(judgement);
+    if (lags_alike(judgement)) contact_.until_lag = lag_pause * probe_length_;
+    const double lag = contact_.until_lag == 0 ? judgement.lag : 0;
+    contact_.rung = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
+    if (attempt_.turned_back) return accept_unpredictable(judgement);
     if (judgement.sensitive) slack_ = std::max(slack_, sensitive_slack);
     const double worst = std::max(judgement.excess(), judgement.motion / slack_);
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
     if (worst <= 1 && lags(judgement)) {
-        if (lagged_.substeps == 0) lagged_ = {static_cast<double>(segment_.substeps), judgement.lag};
+        if (attempt_.lagged.substeps == 0) attempt_.lagged = {static_cast<double>(segment_.substeps), judgement.lag};
         return follow(std::min(judgement.lag, most_lag_followed));
     }
     if (segment_.probes) learn_order(judgement);
@@ -75,13 +77,13 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
         succeed(judgement);
         return slack_ > 1 && judgement.motion > 1 ? Verdict::unpredictable : Verdict::keep;
     }
-    if (top_motion_ > 0) return look_back(judgement);
-    if (turn_back(judgement)) return try_again_with(*only_motion_failed_);
+    if (attempt_.top_motion > 0) return look_back(judgement);
+    if (turn_back(judgement)) return try_again_with(*attempt_.only_motion_failed);
     if (futile(judgement)) return take_best(judgement);
     if (at_top()) {
         if (!worth_looking_back(judgement)) return Verdict::give_up;
-        top_motion_ = judgement.motion;
-        return try_again_with(rung_of(rungs_.back() / 4.0));
+        attempt_.top_motion = judgement.motion;
+        return try_again_with(rung_of(ladder_.rungs.back() / 4.0));
     }
     refine(judgement);
     return Verdict::again;
@@ -99,37 +101,38 @@ FailedAttempt SubstepControl::failure(const Judgement& judgement) const {
 /// Returns whether, at the top rung, the motion alone fails, and a quarter of its substeps has not been tried to see
 /// whether more substeps help.
 bool SubstepControl::worth_looking_back(const Judgement& judgement) const {
-    return !hopeless_ && segment_.probes && judgement.excess() <= 1 && std::isfinite(judgement.motion);
+    return !attempt_.hopeless && segment_.probes && judgement.excess() <= 1 && std::isfinite(judgement.motion);
 }
 
 /// Returns whether a drawn triangle may pass a collider, which more substeps would prevent. The attempt with a quarter
 /// of the top's substeps is judged by its motion alone.
 bool SubstepControl::passes(const Judgement& judgement) const {
-    return judgement.passage > 1 && !at_top() && top_motion_ == 0;
+    return judgement.passage > 1 && !at_top() && attempt_.top_motion == 0;
 }
 
 /// Returns whether truncation held a particle back that more substeps would let move on.
 bool SubstepControl::lags(const Judgement& judgement) const {
-    return judgement.lag > 1 && !at_top() && top_motion_ == 0 && until_lag_ == 0 && !lags_alike(judgement);
+    return judgement.lag > 1 && !at_top() && attempt_.top_motion == 0 && contact_.until_lag == 0 &&
+           !lags_alike(judgement);
 }
 
 /// Returns whether more substeps have hardly reduced the segment's lag, by less than their square root: springs press
 /// cloth together, or pull it tight, as far as they would in any step.
 bool SubstepControl::lags_alike(const Judgement& judgement) const {
-    return judgement.lag > 1 && lagged_.substeps > 0 && segment_.substeps > lagged_.substeps &&
-           judgement.lag > lagged_.lag / std::sqrt(segment_.substeps / lagged_.substeps);
+    return judgement.lag > 1 && attempt_.lagged.substeps > 0 && segment_.substeps > attempt_.lagged.substeps &&
+           judgement.lag > attempt_.lagged.lag / std::sqrt(segment_.substeps / attempt_.lagged.substeps);
 }
 
 /// Takes the number of substeps at which motions that are `excess` times too long become short enough. It says nothing
 /// about what other frames need.
 SubstepControl::Verdict SubstepControl::follow(double excess) {
     constexpr double margin = 1.2;  // with more substeps, the motion that is followed may be faster
-    return try_again_with(std::max(tried_ + 1, rung_of(margin * excess * segment_.substeps)));
+    return try_again_with(std::max(attempt_.rung + 1, rung_of(margin * excess * segment_.substeps)));
 }
 
 SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
-    tried_ = rung;
-    segment_.substeps = rungs_[tried_];
+    attempt_.rung = rung;
+    segment_.substeps = ladder_.rungs[attempt_.rung];
     return Verdict::again;
 }
 
@@ -138,72 +141,96 @@ SubstepControl::Verdict SubstepControl::try_again_with(std::size_t rung) {
 bool SubstepControl::turn_back(const Judgement& judgement) {
     const bool only_motion =
         judgement.plausible && judgement.excess() <= 1 && std::isfinite(judgement.motion) && !passes(judgement);
-    if (only_motion) only_motion_failed_ = tried_;
-    turned_back_ = !judgement.plausible && only_motion_failed_.has_value();
-    return turned_back_;
+    if (only_motion) attempt_.only_motion_failed = attempt_.rung;
+    attempt_.turned_back = !judgement.plausible && attempt_.only_motion_failed.has_value();
+    return attempt_.turned_back;
 }
 
 /// Judges the attempt with a quarter of the top's substeps.
 SubstepControl::Verdict SubstepControl::look_back(const Judgement& judgement) {
-    const bool as_good = judgement.excess() <= 1 && judgement.motion < 2 * top_motion_;
-    top_motion_ = 0;
+    const bool as_good = judgement.excess() <= 1 && judgement.motion < 2 * attempt_.top_motion;
+    attempt_.top_motion = 0;
     if (as_good) return accept_unpredictable(judgement);
-    hopeless_ = true;
-    return try_again_with(rungs_.size() - 1);
+    attempt_.hopeless = true;
+    return try_again_with(ladder_.rungs.size() - 1);
 }
 
 SubstepControl::Verdict SubstepControl::accept_unpredictable(const Judgement& judgement) {
     slack_ = unpredictable_slack * judgement.motion;
     succeed(judgement);
-    rung_ = turned_back_ ? tried_ : std::max(began_, needed_);
-    until_probe_ = 0;
+    rung_ = attempt_.turned_back ? attempt_.rung : std::max(attempt_.began, attempt_.needed);
+    probes_.until = 0;
     return Verdict::unpredictable;
 }
 
 /// More substeps hardly helped: goes back to the attempt with the smallest error, which need not have the most
 /// substeps.
 SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
-    if (before_.motion >= judgement.motion) return accept_unpredictable(judgement);
-    turned_back_ = true;
-    return try_again_with(rung_of(before_.substeps));
+    if (attempt_.before.motion >= judgement.motion) return accept_unpredictable(judgement);
+    attempt_.turned_back = true;
+    return try_again_with(rung_of(attempt_.before.substeps));
 }
 
-void SubstepControl::accumulated(double share) {
-    if (resolves_) follow_share(share);
-    share_ = share;
+void SubstepControl::accumulated(const Trend& trend) {
+    if (ladder_.resolves)
+        follow_share(trend.share);
+    else
+        follow_calm(trend);
+    trend_ = trend;
+}
+
+/// Takes the substeps that a swing needs at least, and waits before it goes below them.
+void SubstepControl::return_to_calm() {
+    rung_ = std::max(rung_, ladder_.calm);
+    calm_ = {};
+}
+
+/// Goes below the substeps that a swing needs, a rung at a time, while the companion shows that the error stays far
+/// below its limit; goes back to them where it does not, or where nothing is known.
+void SubstepControl::follow_calm(const Trend& trend) {
+    const double stretch = std::exchange(calm_.stretch, 0.0);
+    if (std::isnan(trend.growth)) return return_to_calm();
+    calm_.growth = std::max(trend.growth, calm_.growth * calm_kept);
+    const double error = std::max({stretch, trend.share, calm_.growth});
+    if (error > comfort) return_to_calm();
+    const bool shown = calm_.frames >= calm_after * probe_length_;
+    if (!shown || rung_ > ladder_.calm || rung_ == ladder_.lowest) return;
+    const double longer = static_cast<double>(ladder_.rungs[rung_]) / ladder_.rungs[rung_ - 1];
+    if (error * longer * longer < calm_comfort) --rung_;
 }
 
 /// Without probes the companion alone shows whether the motion needs more substeps than the method's law proposed.
 void SubstepControl::follow_share(double share) {
     constexpr double high = 0.5, low = 0.1;
-    if (share > high && share >= share_ && rung_ < std::min(proposed_ + 6, rungs_.size() - 1))
+    if (share > high && share >= trend_.share && rung_ < std::min(ladder_.proposed + 6, ladder_.rungs.size() - 1))
         ++rung_;
-    else if (share < low && rung_ > proposed_)
+    else if (share < low && rung_ > ladder_.proposed)
         --rung_;
 }
 
 /// Returns whether more substeps have hardly reduced the segment's error of motion: by less than their square root.
 bool SubstepControl::hardly_fell(const Judgement& judgement) const {
-    return judgement.motion > before_.motion / std::sqrt(segment_.substeps / before_.substeps);
+    return judgement.motion > attempt_.before.motion / std::sqrt(segment_.substeps / attempt_.before.substeps);
 }
 
 /// Returns whether four times the substeps or more have hardly reduced the segment's error of motion.
 bool SubstepControl::futile(const Judgement& judgement) const {
-    if (judgement.excess() > 1 || !std::isfinite(judgement.motion) || !std::isfinite(before_.motion)) return false;
+    if (judgement.excess() > 1 || !std::isfinite(judgement.motion) || !std::isfinite(attempt_.before.motion))
+        return false;
     if (passes(judgement)) return false;
-    return before_.substeps > 0 && segment_.substeps >= 4 * before_.substeps && hardly_fell(judgement);
+    return attempt_.before.substeps > 0 && segment_.substeps >= 4 * attempt_.before.substeps && hardly_fell(judgement);
 }
 
 /// Learns the order of convergence from two probes: of the same frames, or, with less weight, of different ones.
 /// Contact and crumpling leave less than the second order of free motion.
 void SubstepControl::learn_order(const Judgement& judgement) {
     const Tried now{static_cast<double>(segment_.substeps), judgement.motion};
-    const double seen = std::log(probed_.motion / now.motion) / std::log(now.substeps / probed_.substeps);
-    if (probed_.substeps > 0 && now.substeps != probed_.substeps && std::isfinite(seen)) {
+    const double seen = std::log(probes_.last.motion / now.motion) / std::log(now.substeps / probes_.last.substeps);
+    if (probes_.last.substeps > 0 && now.substeps != probes_.last.substeps && std::isfinite(seen)) {
         const double order = std::clamp(seen, 1.0, 2.0);
-        order_ = now.substeps > probed_.substeps ? order : 0.5 * (order_ + order);
+        probes_.order = now.substeps > probes_.last.substeps ? order : 0.5 * (probes_.order + order);
     }
-    probed_ = now;
+    probes_.last = now;
 }
 
 /// Returns the factor by which a failed attempt wants more substeps. The stretch error falls about with their square,
@@ -212,70 +239,74 @@ double SubstepControl::wanted_factor(const Judgement& judgement) const {
     constexpr double margin = 1.1, most = 4;
     const double motion = judgement.motion / slack_;
     double factor = margin * std::sqrt(judgement.excess());
-    if (judgement.excess() <= 1 && before_.substeps > 0 && hardly_fell(judgement))
-        factor = most * before_.substeps / segment_.substeps;
+    if (judgement.excess() <= 1 && attempt_.before.substeps > 0 && hardly_fell(judgement))
+        factor = most * attempt_.before.substeps / segment_.substeps;
     else if (motion > 1)
-        factor = std::max(factor, margin * std::pow(motion, 1 / order_));
+        factor = std::max(factor, margin * std::pow(motion, 1 / probes_.order));
     return std::clamp(factor, 1.0, most);
 }
 
 void SubstepControl::refine(const Judgement& judgement) {
     const double factor = wanted_factor(judgement);
-    if (judgement.excess() > 1) needed_ = tried_ + 1;
+    if (judgement.excess() > 1) attempt_.needed = attempt_.rung + 1;
     const bool measured = segment_.probes && judgement.excess() <= 1;  // otherwise the motion's error is not known
-    if (measured && (before_.substeps == 0 || segment_.substeps >= 4 * before_.substeps))
-        before_ = {static_cast<double>(segment_.substeps), judgement.motion};
-    tried_ = std::max(tried_ + 1, rung_of(factor * segment_.substeps));
-    segment_.substeps = rungs_[tried_];
-    if (since_fewer_ < 8 * probe_length_) patience_ = std::min(2 * patience_, 16u);
-    since_fewer_ = 1000000;
-    easy_ = 0;
-    interval_ = 1;
-    rung_ = tried_;
+    if (measured && (attempt_.before.substeps == 0 || segment_.substeps >= 4 * attempt_.before.substeps))
+        attempt_.before = {static_cast<double>(segment_.substeps), judgement.motion};
+    attempt_.rung = std::max(attempt_.rung + 1, rung_of(factor * segment_.substeps));
+    segment_.substeps = ladder_.rungs[attempt_.rung];
+    if (easing_.since_fewer < 8 * probe_length_) easing_.patience = std::min(2 * easing_.patience, 16u);
+    easing_.since_fewer = 1000000;
+    easing_.easy = 0;
+    probes_.interval = 1;
+    rung_ = attempt_.rung;
 }
 
 void SubstepControl::keep_anyway() { succeed({.stretch = 1, .motion = 1}); }
 
 void SubstepControl::succeed(const Judgement& judgement) {
-    since_fewer_ += segment_.frame_count;
-    until_lag_ -= std::min(until_lag_, segment_.frame_count);
+    easing_.since_fewer += segment_.frame_count;
+    calm_.frames += segment_.frame_count;
+    calm_.stretch = std::max(calm_.stretch, judgement.stretch);
+    contact_.until_lag -= std::min(contact_.until_lag, segment_.frame_count);
     if (!segment_.probes) {
-        if (until_probe_ > 0) --until_probe_;
+        if (probes_.until > 0) --probes_.until;
         return;
     }
     slack_ = std::max(1.0, std::min(slack_, unpredictable_slack * judgement.motion));
-    until_probe_ = interval_ * probe_length_;
+    probes_.until = probes_.interval * probe_length_;
     // The companion notices what happens between probes, so few probes are enough far from the limit.
     constexpr double far = 0.3;
-    interval_ = std::min((share_ < far ? 4 : 2) * interval_, longest_interval);
+    probes_.interval = std::min((trend_.share < far ? 4 : 2) * probes_.interval, longest_interval);
     consider_fewer(judgement);
 }
 
 /// Returns the errors, divided by their limits, that a probe predicts for a lower rung: the motion's error grows with
 /// the order that the probe showed, the stretch error as it did towards half the substeps.
 double SubstepControl::expected(const Judgement& judgement, std::size_t rung) const {
-    const double longer = static_cast<double>(rungs_[tried_]) / rungs_[rung];
+    const double longer = static_cast<double>(ladder_.rungs[attempt_.rung]) / ladder_.rungs[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
     const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));
-    return std::max(judgement.motion / slack_ * std::pow(longer, order_), stretch);
+    return std::max(judgement.motion / slack_ * std::pow(longer, probes_.order), stretch);
 }
 
 /// Goes down after a few easy probes, at once after a very easy one: as far as errors stay small, to a quarter of the
 /// substeps at most.
 void SubstepControl::consider_fewer(const Judgement& judgement) {
-    if (rung_ == lowest_) return;
+    if (rung_ <= ladder_.calm) return;
     const double next = expected(judgement, rung_ - 1);
-    easy_ = next < comfort ? easy_ + 1 : 0;
-    if (easy_ > 0) until_probe_ = std::min(until_probe_, probe_length_);
-    if (next >= very_easy * comfort && easy_ < patience_) return;
+    easing_.easy = next < comfort ? easing_.easy + 1 : 0;
+    if (easing_.easy > 0) probes_.until = std::min(probes_.until, probe_length_);
+    if (next >= very_easy * comfort && easing_.easy < easing_.patience) return;
     std::size_t rung = rung_;
-    while (rung > lowest_ && 4 * rungs_[rung - 1] >= rungs_[tried_] && expected(judgement, rung - 1) < comfort) --rung;
+    while (rung > ladder_.calm && 4 * ladder_.rungs[rung - 1] >= ladder_.rungs[attempt_.rung] &&
+           expected(judgement, rung - 1) < comfort)
+        --rung;
     if (rung == rung_) return;
-    easy_ = 0;
-    since_fewer_ = 0;
+    easing_.easy = 0;
+    easing_.since_fewer = 0;
     rung_ = rung;
-    interval_ = 1;
-    until_probe_ = 0;
+    probes_.interval = 1;
+    probes_.until = 0;
 }
 
 }  // namespace drape

@@ -39,14 +39,21 @@ struct Segment {
     bool operator==(const Segment&) const = default;
 };
 
-/// The share that is reported for a run without a companion (SubstepControl::accumulated).
-inline constexpr double unknown_share = std::numeric_limits<double>::quiet_NaN();
+/// What the companion shows where it was compared, divided by what the motion's limit allows (control/motion_error.h):
+/// the position error, and how fast it grew since the last comparison. Not numbers: not known.
+struct Trend {
+    double share = std::numeric_limits<double>::quiet_NaN(), growth = std::numeric_limits<double>::quiet_NaN();
+};
 
 class SubstepControl {
   public:
-    /// The control begins with `proposed` substeps and never goes below `least`; a probe has `probe_length` frames, 2
-    /// or more.
-    SubstepControl(const Method& method, std::uint32_t proposed, std::uint32_t least, std::uint32_t probe_length);
+    /// The least numbers of substeps: of any frame, and of those in which the companion does not show the error far
+    /// below its limit.
+    struct Floors {
+        std::uint32_t least, calm;
+    };
+    /// The control begins with `proposed` substeps; a probe has `probe_length` frames, 2 or more.
+    SubstepControl(const Method& method, std::uint32_t proposed, const Floors& floors, std::uint32_t probe_length);
 
     /// Returns the first attempt at the next frames. `room` is how many frames a probe from here on may have.
     /// `eventful` means that the scene announces an event in the first of them (drive.h): the segment then begins with
@@ -65,24 +72,23 @@ class SubstepControl {
         return (judgement.excess() > 1 && !at_top()) || passes(judgement) || lags(judgement);
     }
     const Segment& segment() const { return segment_; }
-    bool at_top() const { return tried_ + 1 == rungs_.size(); }
+    bool at_top() const { return attempt_.rung + 1 == ladder_.rungs.size(); }
     /// Keeps the frames although the last judgement failed.
     void keep_anyway();
-    /// Takes, after a segment was kept, the motion's error since the start as a share of what its limit allows
-    /// (control/motion_error.h); 0 where the motion itself is chaotic. Far from the limit probes become rarer; near it,
-    /// methods without probes take more substeps. `unknown_share` counts as neither far nor near.
-    void accumulated(double share);
+    /// Takes, after a segment was kept, what is known of the position error; a share of 0 where the motion itself is
+    /// chaotic. Far from the limit probes become rarer, and substeps may be longer than a swing needs; near it, methods
+    /// without probes take more substeps.
+    void accumulated(const Trend& trend);
 
     /// Passes everything that changes between segments to `archive(members...)`, which writes or reads it
     /// (byte_stream.h). Returns whether what was read is possible.
     template <class Archive>
     bool transfer(Archive& archive) {
-        archive(rung_, began_, tried_, order_, slack_, before_.substeps, before_.motion, probed_.substeps,
-                probed_.motion, top_motion_, hopeless_, only_motion_failed_, turned_back_, segment_.substeps,
-                segment_.frame_count, segment_.probes, interval_, until_probe_, since_fewer_, patience_, easy_,
-                passage_rung_, until_lag_, share_);
-        return std::max({rung_, began_, tried_, passage_rung_, only_motion_failed_.value_or(0)}) < rungs_.size() &&
-               rung_ >= lowest_;
+        archive(rung_, slack_, segment_.substeps, segment_.frame_count, segment_.probes, probes_.interval,
+                probes_.until, probes_.order, probes_.last.substeps, probes_.last.motion, easing_.since_fewer,
+                easing_.patience, easing_.easy, contact_.rung, contact_.until_lag, trend_.share, trend_.growth,
+                calm_.frames, calm_.stretch, calm_.growth);
+        return std::max(rung_, contact_.rung) < ladder_.rungs.size() && rung_ >= ladder_.lowest;
     }
 
   private:
@@ -94,6 +100,8 @@ class SubstepControl {
     bool futile(const Judgement& judgement) const;
     double wanted_factor(const Judgement& judgement) const;
     void follow_share(double share);
+    void follow_calm(const Trend& trend);
+    void return_to_calm();
     Verdict accept_unpredictable(const Judgement& judgement);
     Verdict take_best(const Judgement& judgement);
     bool worth_looking_back(const Judgement& judgement) const;
@@ -107,40 +115,57 @@ class SubstepControl {
     double expected(const Judgement& judgement, std::size_t rung) const;
     void consider_fewer(const Judgement& judgement);
 
-    std::span<const std::uint32_t> rungs_;
-    bool resolves_;  ///< the method needs no probe
+    struct Ladder {
+        std::span<const std::uint32_t> rungs;
+        bool resolves;  ///< the method needs no probe
+        std::size_t lowest, calm, proposed;
+    } ladder_;
     std::uint32_t probe_length_;
-    std::size_t lowest_, proposed_;
-    std::size_t rung_;       ///< the rung for frames to come
-    std::size_t began_ = 0;  ///< the rung before the segment began
-    std::size_t tried_ = 0;  ///< the rung of the current attempt
-    double order_ = 2;       ///< the power of the substep with which the motion's error falls
-    double slack_ = 1;       ///< factor on the motion's limit, raised where more substeps did not help
+    std::size_t rung_;  ///< the rung for frames to come
+    double slack_ = 1;  ///< factor on the motion's limit, raised where more substeps did not help
     struct Tried {
         double substeps = 0, motion = 0;
-    } before_,               ///< a failed attempt at the segment, which shows whether more substeps help
-        probed_;             ///< the last probe
-    double top_motion_ = 0;  ///< the motion's error at the top rung, while a quarter of its substeps is tried
-    bool hopeless_ =
-        false;  ///< a quarter of the top's substeps was worse: more substeps would help, but there are none
-    /// The attempt at the segment with the most substeps that failed by its motion alone.
-    std::optional<std::size_t> only_motion_failed_;
-    bool turned_back_ = false;  ///< the segment went back to an earlier attempt
-    std::size_t needed_ = 0;    ///< the lowest rung that keeps the segment's stretch
-    double share_ = 0;          ///< the motion's error as a share of the allowed one
-    /// The rung that passages and lags of the last attempt ask for. It lasts for the frames in which something passes a
-    /// collider fast, or cloths meet fast; later frames use `rung_` again.
-    std::size_t passage_rung_ = 0;
+    };
     struct Lagged {
         double substeps = 0, lag = 0;
-    } lagged_;                     ///< the segment's first attempt whose lag was above its limit
-    std::uint32_t until_lag_ = 0;  ///< frames until lags count again, after more substeps did not reduce one
+    };
+    /// What is known of the attempts at the segment.
+    struct Attempt {
+        std::size_t began = 0;   ///< the rung before the segment began
+        std::size_t rung = 0;    ///< of the current attempt
+        std::size_t needed = 0;  ///< the lowest rung that keeps the segment's stretch
+        Tried before = {};       ///< a failed attempt, which shows whether more substeps help
+        double top_motion = 0;   ///< the motion's error at the top rung, while a quarter of its substeps is tried
+        bool hopeless =
+            false;  ///< a quarter of the top's substeps was worse: more substeps would help, but there are none
+        /// The attempt with the most substeps that failed by its motion alone.
+        std::optional<std::size_t> only_motion_failed = {};
+        bool turned_back = false;  ///< the segment went back to an earlier attempt
+        Lagged lagged = {};        ///< the first attempt whose lag was above its limit
+    } attempt_;
     Segment segment_{};
-    std::uint32_t interval_ = 1,
-                  until_probe_ = 0;        ///< frames from one probe to the next, and those left until the next
-    std::uint32_t since_fewer_ = 1000000;  ///< frames since the substeps went down
-    std::uint32_t patience_ = 1,
-                  easy_ = 0;  ///< easy probes required before the substeps go down, and their count so far
+    struct Contact {
+        /// The rung that passages and lags of the last attempt ask for. It lasts for the frames in which something
+        /// passes a collider fast, or cloths meet fast; later frames use `rung_` again.
+        std::size_t rung = 0;
+        std::uint32_t until_lag = 0;  ///< frames until lags count again, after more substeps did not reduce one
+    } contact_;
+    struct Probes {
+        std::uint32_t interval = 1, until = 0;  ///< frames from one probe to the next, and those left until the next
+        double order = 2;                       ///< the power of the substep with which the motion's error falls
+        Tried last = {};
+    } probes_;
+    struct Easing {
+        std::uint32_t since_fewer = 1000000;  ///< frames since the substeps went down
+        std::uint32_t patience = 1,
+                      easy = 0;  ///< easy probes required before the substeps go down, and their count so far
+    } easing_;
+    Trend trend_ = {};  ///< at the last comparison
+    struct Calm {
+        std::uint32_t frames = 0;  ///< since the start, an event, or an error that was too large
+        double stretch = 0;        ///< the worst since the last comparison
+        double growth = 0;         ///< of the error, held for a while
+    } calm_;
 };
 
 }  // namespace drape

@@ -114,16 +114,19 @@ TEST(SolverChoiceTest, ACollidingOrWindyClothGetsMoreSubsteps) {
 }
 
 TEST(SolverChoiceTest, ASwingBoundsTheSubstep) {
-    const auto least = [](double size, double gravity) {
+    const auto choose = [](double size, double gravity) {
         SceneDescription scene = automatic(8);
         scene.cloths[0].size = {size, 0.5 * size};
         scene.gravity = {0, -gravity, 0};
-        return of(choose_solver(scene, DeviceKind::cpu), SolverMethod::line).least_substeps;
+        return of(choose_solver(scene, DeviceKind::cpu), SolverMethod::line);
     };
-    EXPECT_EQ(least(1, 9.81), 6u);
-    EXPECT_EQ(least(0.25, 9.81), 12u);
-    EXPECT_EQ(least(100, 9.81), 1u);
-    EXPECT_EQ(least(1, 0), 1u);
+    const auto calm = [&](double size, double gravity) { return choose(size, gravity).calm_substeps; };
+    EXPECT_EQ(calm(1, 9.81), 6u);
+    EXPECT_EQ(calm(0.25, 9.81), 12u);
+    EXPECT_EQ(calm(100, 9.81), 1u);
+    EXPECT_EQ(calm(1, 0), 1u);
+    EXPECT_EQ(choose(0.25, 9.81).least_substeps, 1u) << "a small error may allow fewer";
+    EXPECT_GE(choose(0.25, 9.81).substeps, 12u);
 }
 
 TEST(SolverChoiceTest, WhatNoSettingReachesIsNotPromised) {

@@ -244,6 +244,21 @@ TEST(Pilot, OfAutoRefusesWhatNoSubstepsReach) {
     EXPECT_FALSE(flight.efforts.front().within_limits);
 }
 
+TEST(Pilot, OfAutoTakesLongerSubstepsThanASwingNeedsWhereTheErrorIsSmall) {
+    const SimulationModel model(hanging_sheet(SolverMethod::automatic));
+    const auto last = [&](double rate) {
+        const auto pilot = make_pilot(model);
+        MadeUpCloth cloth([&](std::uint32_t frame) { return frame < 120 ? rate : 3.0; });
+        cloth.begin_with(model.scene.solver.substeps);
+        const std::uint32_t calm = fly(*pilot, cloth, 119).substeps.back();
+        EXPECT_LT(cloth.error(), 0.3 * 2 * motion_limit(model, 0));
+        EXPECT_GE(fly(*pilot, cloth, 190).substeps.back(), model.choice.calm_substeps) << "until the error rises";
+        return calm;
+    };
+    EXPECT_LT(last(1e-4), model.choice.calm_substeps);
+    EXPECT_LE(last(1e-4), last(1e-2));
+}
+
 TEST(Pilot, OfAutoForgetsFramesThatAreAbandoned) {
     const SimulationModel model(hanging_sheet(SolverMethod::automatic));
     const auto rate = [](std::uint32_t frame) { return 0.3 + 0.1 * (frame % 7); };

@@ -10,7 +10,7 @@ namespace {
 
 using Verdict = SubstepControl::Verdict;
 
-SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, 1, 6}; }
+SubstepControl control(std::uint32_t proposed) { return {row_of(SolverMethod::line), proposed, {1, 1}, 6}; }
 
 /// Frames of a cloth whose errors fall with the square of the substeps and are 1 at `stretch` and `motion` substeps.
 struct ConvergingCloth {
@@ -222,7 +222,7 @@ TEST(SubstepControl, AnErrorFarFromItsLimitMakesProbesFewer) {
         for (int segment = 0; segment < 100; ++segment) {
             count += loop.begin(6, false).probes;
             EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.9, .coarse_stretch = 0.3}), Verdict::keep);
-            loop.accumulated(share);
+            loop.accumulated({share, 0});
         }
         return count;
     };
@@ -230,12 +230,55 @@ TEST(SubstepControl, AnErrorFarFromItsLimitMakesProbesFewer) {
     EXPECT_LT(probes(0.1), probes(0.6));
 }
 
+/// Keeps a tenth of a second at a time, in which errors are those of a cloth whose companion shows this by the
+/// substeps.
+template <class Shown>
+void fly(SubstepControl& loop, int tenths, const Shown& shown) {
+    for (int tenth = 0; tenth < tenths; ++tenth) {
+        for (std::uint32_t frames = 0; frames < 6; frames += loop.segment().frame_count) {
+            loop.begin(6, false);
+            EXPECT_EQ(loop.judge({.stretch = 0.02, .motion = 0.02, .coarse_stretch = 0.08}), Verdict::keep);
+        }
+        loop.accumulated(shown(loop.segment().substeps));
+    }
+}
+
+TEST(SubstepControl, SubstepsLongerThanASwingNeedsAreTakenWhereTheErrorIsFarBelowItsLimit) {
+    for (const double needed : {0.1, 0.5, 2.0, 5.0, 9.0, 20.0}) {
+        SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
+        const auto shown = [&](std::uint32_t n) {
+            const double error = std::pow(needed / n, 2);
+            return Trend{error, error};
+        };
+        fly(loop, 4, shown);
+        EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "an error of a swing's speed takes as long to show";
+        fly(loop, 40, shown);
+        const std::uint32_t calm = loop.begin(6, false).substeps;
+        EXPECT_GE(calm, std::min(needed, 12.0));
+        EXPECT_LE(calm, std::max(2.0, 3 * needed));
+        loop.accumulated({});
+        EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "nobody tells";
+    }
+}
+
+TEST(SubstepControl, AnErrorThatComesNearerEndsLongSubsteps) {
+    SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
+    const Trend small{0.01, 0.01};
+    fly(loop, 20, [&](std::uint32_t) { return small; });
+    ASSERT_EQ(loop.begin(6, false).substeps, 2u);
+    fly(loop, 1, [&](std::uint32_t) { return Trend{0.1, 0.7}; });
+    EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "it grows";
+    fly(loop, 40, [&](std::uint32_t) { return small; });
+    ASSERT_EQ(loop.begin(6, false).substeps, 2u);
+    EXPECT_GE(loop.begin(6, true).substeps, 12u) << "the scene tells of something";
+}
+
 TEST(SubstepControl, WithoutProbesSubstepsFollowTheErrorAndComeBack) {
-    SubstepControl loop(row_of(SolverMethod::explicit_steps), 16, 2, 6);
+    SubstepControl loop(row_of(SolverMethod::explicit_steps), 16, {2, 2}, 6);
     const auto frame = [&](double share) {
         EXPECT_FALSE(loop.begin(6, false).probes);
         EXPECT_EQ(loop.judge({.stretch = 0.1}), Verdict::keep);
-        loop.accumulated(share);
+        loop.accumulated({share, 0});
     };
     for (int k = 1; k <= 20; ++k) frame(0.5 + 0.1 * k);
     const std::uint32_t most = loop.segment().substeps;
@@ -336,10 +379,10 @@ TEST(SubstepControl, BeginsWithTheSubstepsThatTheLawProposes) {
 }
 
 TEST(SubstepControl, NeverGoesBelowWhatBendingNeeds) {
-    SubstepControl loop(row_of(SolverMethod::line), 2, 30, 6);
+    SubstepControl loop(row_of(SolverMethod::line), 2, {30, 30}, 6);
     EXPECT_EQ(loop.segment().substeps, 0u);
     EXPECT_EQ(loop.begin(6, false).substeps, 32u);
-    SubstepControl easy(row_of(SolverMethod::line), 64, 30, 6);
+    SubstepControl easy(row_of(SolverMethod::line), 64, {30, 30}, 6);
     EXPECT_EQ(run(easy, {1, 1}, 300).last, 32u);
 }
 
