@@ -27,6 +27,8 @@ layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 11, rgba32f) uniform readonly image2D end_excess;
 // Each cloth has a texel. xyz: positions are summed relative to this point, m; w: thickness, m.
 layout(set = 0, binding = 12, rgba32f) uniform readonly image2D statistics_reference;
+layout(constant_id = 25) const bool turned = false;  // substeps turned the cloth so that it keeps its angular momentum
+layout(set = 0, binding = 14, rgba32f) uniform readonly image2D angular_error;
 layout(constant_id = 24) const bool rests_bent = false;
 layout(set = 0, binding = 13, rgba32f) uniform readonly image2D rest_shape;
 const bool collides = meshes_end > 0;
@@ -126,8 +128,9 @@ StatisticsRecord with_bending(StatisticsRecord record, ivec2 texel) {
 
 StatisticsRecord statistics_of(ivec2 texel, Neighbours around) {
     vec3 at = around.here.xyz;
-    precise vec3 velocity = LOAD(displacement, texel).xyz + LOAD(end_excess, texel).xyz;
-    StatisticsRecord record = particle_statistics(at, velocity, mass_share_of(texel), reference_of_cloth().xyz,
+    vec3 moved = LOAD(displacement, texel).xyz;
+    precise vec3 velocity = moved + LOAD(end_excess, texel).xyz;
+    StatisticsRecord record = particle_statistics(at, moved, velocity, mass_share_of(texel), reference_of_cloth().xyz,
                                                   uint(texel.y * push.grid.x + texel.x));
     vec4 shares = shares_of(texel);
     record = with_spring(record, texel, at, around.right, 0, shares.x, LOAD(tension_row, texel).x);
@@ -156,6 +159,7 @@ void main() {
     around.right = LOAD(position, texel + ivec2(1, 0)).xyz;
     int end = min(texel.y + statistics_rows, push.grid.y);
     if (texel.x >= push.grid.x) return;
+    if (turned && texel == ivec2(0)) record.errors.yzw = imageLoad(angular_error, ivec2(0, cloth_place())).xyz;
     for (;;) {
         vec4 below = LOAD(position, texel + ivec2(0, 1));
         around.below_left = LOAD(position, texel + ivec2(-1, 1)).xyz;

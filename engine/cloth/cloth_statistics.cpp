@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/vectors.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/texels.h"
 #include "world/weather.h"
@@ -17,6 +18,27 @@ StrainStatistics strain_statistics(std::uint32_t count, double square_sum, doubl
 
 std::optional<std::uint32_t> particle_of(glsl::uint place) {
     return place == UINT32_MAX ? std::nullopt : std::optional<std::uint32_t>(place);
+}
+
+Vec3 in_double(const glsl::vec4& sums) { return {double{sums.x}, double{sums.y}, double{sums.z}}; }
+
+/// Returns the point that the angular momentum is about, m.
+Vec3 turning_point(const ClothModel& cloth, const Vec3& center, double time) {
+    if (!cloth.turn || !cloth.turn->turns_held() || time >= cloth.turn->until) return center;
+    const glsl::ivec2 about = cloth.turn->about;
+    return in_double(
+        cloth.position[cloth.grid.particle(static_cast<std::uint32_t>(about.x), static_cast<std::uint32_t>(about.y))]);
+}
+
+void set_momenta(const ClothModel& cloth, const glsl::StatisticsRecord& record, double time,
+                 ClothStatistics& statistics) {
+    const double unit = cloth.inner_mass / cloth.substep_length;
+    const Vec3 arm =
+        minus(turning_point(cloth, statistics.center_of_mass, time), in_double(statistics_reference(cloth)));
+    statistics.momentum = times(unit, in_double(record.momentum));
+    statistics.angular_momentum = times(unit, minus(in_double(record.spin), cross(arm, in_double(record.mean))));
+    const glsl::vec4& errors = record.errors;
+    statistics.angular_error = times(unit, Vec3{errors.y + 0.0, errors.z + 0.0, errors.w + 0.0});
 }
 
 }  // namespace
@@ -79,6 +101,7 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
         statistics.center_of_mass[k] = start[k] + (share > 0 ? moments[k] / share : 0.0);
         statistics.potential_energy -= statistics.mass * gravity[k] * statistics.center_of_mass[k];
     }
+    set_momenta(cloth, record, frame / model.scene.time.fps, statistics);
     if (!model.scene.colliders.empty()) {
         statistics.penetration = record.extents.z;
         statistics.deepest = particle_of(record.places.z);

@@ -142,7 +142,10 @@ std::optional<Work> AutoPilot::next_work() {
             // Nothing moves in a sleeping frame. The saved state keeps the velocity with which it fell asleep.
             KnownFrame still{before_, {.attempts = 0, .asleep = true}};
             note_motion(stated_.error, stated_.sensitivity, still.effort);
-            for (ClothStatistics& cloth : still.statistics) cloth.kinetic_energy = cloth.largest_speed = 0;
+            for (ClothStatistics& cloth : still.statistics) {
+                cloth.kinetic_energy = cloth.largest_speed = 0;
+                cloth.momentum = cloth.angular_momentum = cloth.angular_error = {};
+            }
             kept_.effort = still.effort;
             kept_.statistics = {still.statistics};
             ++simulated_;
@@ -208,6 +211,7 @@ void AutoPilot::take_fine(const Work& work, const WorkResult& result) {
         judgement.passage, passage_judgement(model_, work.frame, work.substeps,
                                              attempt_.next == 0 ? start : kept_.statistics.back(), result.statistics));
     if (model_.self_contact) judgement.lag = std::max(judgement.lag, lag_judgement(model_, result.contact));
+    judgement.lag = std::max(judgement.lag, turning_judgement(model_, result.statistics));
     kept_.statistics.push_back(result.statistics);
     kept_.contacts.push_back(result.contact);
     kept_.list_use = std::max(kept_.list_use, result.list_use);

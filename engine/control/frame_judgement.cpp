@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vectors.h"
 #include "cloth/cut_topology.h"
 
 namespace drape {
@@ -50,6 +51,18 @@ double lag_limit(const SimulationModel& model) {
 
 double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& record) {
     return double{std::bit_cast<float>(record.most_lag)} / lag_limit(model);
+}
+
+double turning_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths) {
+    constexpr double time = 0.1;
+    double worst = 0;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+        const std::array<double, 2>& size = model.scene.cloths[cloth].size;
+        const double made = length(cloths[cloth].angular_error) * model.scene.time.fps * time,
+                     allowed = cloths[cloth].mass * 0.5 * std::max(size[0], size[1]) * motion_limit(model, cloth);
+        worst = std::max(worst, made / allowed);
+    }
+    return worst;
 }
 
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {

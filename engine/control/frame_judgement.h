@@ -32,6 +32,10 @@ double lag_limit(const SimulationModel& model);
 /// since motions become shorter.
 double lag_judgement(const SimulationModel& model, const glsl::SelfRecord& record);
 
+/// Returns how much angular momentum the method made, and took back, in a frame of the worst cloth, over what would
+/// give cloth half its longer side from the axis, in a tenth of a second, the speed that the motion's limit allows.
+double turning_judgement(const SimulationModel& model, const std::vector<ClothStatistics>& cloths);
+
 /// Returns how many frames a probe from `frame` on may have, within its usual length and the scene. A probe ends before
 /// a frame that begins with a new cut, or in which a pin lets go.
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame);

@@ -24,7 +24,8 @@ struct Judgement {
     double passage =
         0;  ///< motion past colliders (control/passage_watch.h); this limit is kept as far as substeps allow
     bool sensitive = false;  ///< equally exact runs diverge (control/sensitivity.h): positions cannot be predicted
-    double lag = 0;          ///< how far truncation held a particle back; this limit is kept as far as substeps help
+    double lag = 0;    ///< how far truncation held a particle back, or what angular momentum was made of nothing; this
+                       ///< limit is kept as far as substeps help
     double watch = 0;  ///< speed, distance, energy and whatever else the watch bounds, which substeps do not cause
 
     double excess() const { return std::max(stretch, watch); }

@@ -178,6 +178,19 @@ Json::Value compromises_json(const std::vector<Manifest::Compromise>& compromise
     return array;
 }
 
+Json::Value momenta_json(const std::vector<Momenta>& momenta) {
+    Json::Value array(Json::arrayValue);
+    for (const auto& [cloth, about, momentum_by, angular_momentum_by] : momenta) {
+        Json::Value json;
+        json["cloth"] = cloth;
+        json["about"] = about;
+        json["momentum_by"] = texts(momentum_by);
+        json["angular_momentum_by"] = texts(angular_momentum_by);
+        array.append(std::move(json));
+    }
+    return array;
+}
+
 Json::Value run_json(const Manifest& manifest) {
     Json::Value json;
     json["created"] = manifest.created;
@@ -275,6 +288,7 @@ Json::Value frameless_json(const Manifest& manifest) {
     if (!manifest.cuts.empty()) json["cuts"] = cuts_json(manifest.cuts);
     json["skipped"] = skipped_json(manifest.skipped);
     json["compromises"] = compromises_json(manifest.compromises);
+    if (!manifest.momenta.empty()) json["momenta"] = momenta_json(manifest.momenta);
     json["warnings"] = Json::Value(Json::arrayValue);
     for (const std::string& warning : manifest.warnings) json["warnings"].append(warning);
     json["files"] = files_json(manifest.files);

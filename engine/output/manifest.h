@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "drape/error.h"
+#include "drape/momenta.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
 #include "output/output_folder.h"
@@ -129,6 +130,7 @@ struct Manifest {
     Validation validation;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
+    std::vector<Momenta> momenta;       // by cloth: what may change its momenta
     std::vector<std::string> warnings;  // the warnings that were given, compromises included
     std::optional<SelfCollision> self_collision;
     std::vector<SplitTriangles> off_collider_edges;  // edges of boxes are not kept off these; the earliest first

@@ -98,6 +98,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
         manifest.skipped.push_back({skipped.what, skipped.reason});
     for (const Compromise& each : facts.compromises)
         manifest.compromises.push_back({each.what, each.reason, each.enough_substeps});
+    manifest.momenta = facts.momenta;
     manifest.created = utc_timestamp();
     manifest.command_line = request.command_line;
     return manifest;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
+
 namespace drape {
 
 namespace {
@@ -29,6 +31,12 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
     values[cloth + "/center_of_mass_x_m"] = statistics.center_of_mass[0];
     values[cloth + "/center_of_mass_y_m"] = statistics.center_of_mass[1];
     values[cloth + "/center_of_mass_z_m"] = statistics.center_of_mass[2];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::string axis(1, "xyz"[k]);
+        values[cloth + "/momentum_" + axis + "_kg_m_s"] = statistics.momentum[k];
+        values[cloth + "/angular_momentum_" + axis + "_kg_m2_s"] = statistics.angular_momentum[k];
+    }
+    values[cloth + "/angular_error_kg_m2_s"] = length(statistics.angular_error);
     values[cloth + "/distance_max_m"] = statistics.largest_distance;
     values[cloth + "/speed_max_m_s"] = statistics.largest_speed;
     if (statistics.iteration_count) values[cloth + "/iterations"] = *statistics.iteration_count;

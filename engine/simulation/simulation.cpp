@@ -9,6 +9,7 @@
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/members.h"
+#include "cloth/momentum_causes.h"
 #include "cloth/together.h"
 #include "control/motion_watch.h"
 #include "control/passage_watch.h"
@@ -383,6 +384,8 @@ SimulationFacts Simulation::facts() const {
                           .barrier_count = 0,
                           .simulated_pass_count = simulate.passes.size(),
                           .simulated_barrier_count = graph::barrier_count(simulate)};
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        facts.momenta.push_back(momentum_causes(model, cloth));
     for (const Parts::Planned& output : parts_->output()) {
         facts.pass_count += output.plan.passes.size();
         facts.barrier_count += graph::barrier_count(output.plan);

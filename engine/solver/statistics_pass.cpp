@@ -44,6 +44,7 @@ graph::Handle add_partials(graph::Graph& graph, Pipelines& pipelines, ClothState
         if (name == "has_bend") return std::uint32_t{state.model->bend > 0};
         if (name == "has_skin") return std::uint32_t{state[Field::skin].valid()};
         if (name == "masked") return std::uint32_t{state.masked()};
+        if (name == "turned") return std::uint32_t{state[Field::angular_error].valid()};
         if (name == "rests_bent") return std::uint32_t{state.model->rests_bent()};
         return name == "own_rest" ? std::uint32_t{state.own_rest()} : scene_constant(model, name).value();
     };

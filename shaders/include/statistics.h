@@ -18,9 +18,9 @@ SHARED bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_fi
 
 /// Returns the sums and maxima of nothing: -0 + x is x for every x.
 SHARED StatisticsRecord empty_statistics() {
-    return StatisticsRecord(vec4(-0.0f, -0.0f, -0.0f, -0.0f), vec4(-0.0f, -0.0f, -0.0f, -0.0f),
-                            vec4(lowest_float, lowest_float, lowest_float, lowest_float), vec4(0.0f, 0.0f, 0.0f, 0.0f),
-                            vec4(-0.0f, -0.0f, -0.0f, -0.0f), uvec4(0u, no_particle, 0u, 0u),
+    vec4 none = vec4(-0.0f, -0.0f, -0.0f, -0.0f);
+    return StatisticsRecord(none, none, vec4(lowest_float, lowest_float, lowest_float, lowest_float),
+                            vec4(0.0f, 0.0f, 0.0f, 0.0f), none, none, none, none, uvec4(0u, no_particle, 0u, 0u),
                             uvec4(no_particle, no_particle, no_particle, no_particle));
 }
 
@@ -48,6 +48,8 @@ SHARED uvec4 places_of_larger(StatisticsRecord a, StatisticsRecord b) {
 SHARED StatisticsRecord joined(StatisticsRecord a, StatisticsRecord b) {
     return StatisticsRecord(ordered_sum(a.squares, b.squares), ordered_sum(a.moments, b.moments),
                             larger(a.strains, b.strains), larger(a.extents, b.extents), ordered_sum(a.errors, b.errors),
+                            ordered_sum(a.momentum, b.momentum), ordered_sum(a.mean, b.mean),
+                            ordered_sum(a.spin, b.spin),
                             uvec4(a.counts.x + b.counts.x, a.counts.y < b.counts.y ? a.counts.y : b.counts.y,
                                   a.counts.z + b.counts.z, a.counts.w + b.counts.w),
                             places_of_larger(a, b));
@@ -62,15 +64,23 @@ SHARED float border_mass_share(ivec2 particle, ivec2 grid) {
 }
 
 /// Returns the statistics of a particle without its springs. It counts as not finite if its position or its velocity is
-/// not. `velocity`: h times that of the frame's end, m.
-SHARED StatisticsRecord particle_statistics(vec3 position, vec3 velocity, float share, vec3 reference, uint index) {
+/// not. `velocity`: h times that of the frame's end, m; `displacement`: h times the mean one of the last substep.
+SHARED StatisticsRecord particle_statistics(vec3 position, vec3 displacement, vec3 velocity, float share,
+                                            vec3 reference, uint index) {
     StatisticsRecord record = empty_statistics();
     bool finite = is_finite(position) && is_finite(velocity);
-    precise vec3 moment = (position - reference) * share;
+    precise vec3 arm = position - reference;
+    precise vec3 moment = arm * share;
+    precise vec3 momentum = velocity * share;
+    precise vec3 mean = displacement * share;
+    vec3 spin = ordered_cross(arm, mean);
     precise float moved_squared = ordered_dot(velocity, velocity);
     precise float moving = share * moved_squared;
     record.squares.w = finite ? moving : -0.0f;
     record.moments = finite ? vec4(moment.x, moment.y, moment.z, share) : record.moments;
+    record.momentum = finite ? vec4(momentum.x, momentum.y, momentum.z, -0.0f) : record.momentum;
+    record.mean = finite ? vec4(mean.x, mean.y, mean.z, -0.0f) : record.mean;
+    record.spin = finite ? vec4(spin.x, spin.y, spin.z, -0.0f) : record.spin;
     record.extents.x = finite ? ordered_dot(position, position) : 0.0f;
     record.extents.y = finite ? moved_squared : 0.0f;
     uint place = finite ? index : no_particle;

@@ -30,13 +30,16 @@ struct StatisticsSumPush {
 
 /// Statistics of a particle and its springs, of a part of a column, or of a cloth; include/statistics.h joins them.
 struct StatisticsRecord {
-    vec4 squares;  // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |h v|^2, m^2
-    vec4 moments;  // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
-    vec4 strains;  // largest: strain of stretch, of shear; minus strain of stretch, of shear
-    vec4 extents;  // largest: |position|^2, m^2; |h v|^2, m^2; penetration, m; |stretch error|
-    vec4 errors;   // sums: squared stretch error; yzw unused
-    uvec4 counts;  // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
-    uvec4 places;  // index of the first particle with each of the extents; of a spring its first (none: all ones)
+    vec4 squares;   // sums: squared strain of stretch, of shear; elastic energy, J; mass share x |h v|^2, m^2
+    vec4 moments;   // sums: xyz mass share x (position - reference), m; w: mass share (1 = an inner particle's)
+    vec4 strains;   // largest: strain of stretch, of shear; minus strain of stretch, of shear
+    vec4 extents;   // largest: |position|^2, m^2; |h v|^2, m^2; penetration, m; |stretch error|
+    vec4 errors;    // sums: squared stretch error; yzw: what turning the cloth took back (Rotation::taken), m^2
+    vec4 momentum;  // sums: xyz mass share x h v, m; w unused
+    vec4 mean;      // sums: xyz mass share x displacement of the last substep, m; w unused
+    vec4 spin;      // sums: xyz mass share x (position - reference) x displacement, m^2; w unused
+    uvec4 counts;   // particles not finite; index of the first of them (none: all ones); springs: stretch, shear
+    uvec4 places;   // index of the first particle with each of the extents; of a spring its first (none: all ones)
 };
 
 #ifdef __cplusplus

@@ -70,8 +70,10 @@ TEST(Results, EveryFrameStatesItsStatistics) {
     ASSERT_EQ(statistics.size(), 3u);
     for (Json::ArrayIndex k = 0; k < 3; ++k) {
         EXPECT_EQ(statistics[k]["frame"].asInt(), 5 * static_cast<int>(k));
-        for (const char* name : {"sheet/stretch_rms", "sheet/stretch_max", "sheet/shear_rms", "sheet/kinetic_energy_j",
-                                 "kinetic_energy_j", "potential_energy_j", "elastic_energy_j", "energy_drift_j"})
+        for (const char* name :
+             {"sheet/stretch_rms", "sheet/stretch_max", "sheet/shear_rms", "sheet/kinetic_energy_j",
+              "sheet/momentum_y_kg_m_s", "sheet/angular_momentum_z_kg_m2_s", "sheet/angular_error_kg_m2_s",
+              "kinetic_energy_j", "potential_energy_j", "elastic_energy_j", "energy_drift_j"})
             EXPECT_TRUE(statistics[k][name].isNumeric()) << name;
     }
     EXPECT_EQ(statistics[0]["energy_drift_j"].asDouble(), 0);

@@ -1,6 +1,8 @@
 // The statistics of a state, evaluated plainly in double precision.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "base/vectors.h"
 #include "cloth/texels.h"
 #include "run/run_statistics.h"
+#include "support/sheet_state.h"
 #include "twin/twin.h"
 #include "world/start.h"
 
@@ -138,6 +141,11 @@ class PlainBending {
     const TwinCloth& state_;
 };
 
+inline Vec3 start_of(const ClothModel& cloth, std::size_t particle) {
+    const glsl::vec4& at = cloth.position[particle];
+    return {double{at.x}, double{at.y}, double{at.z}};
+}
+
 /// Everything but penetration, evaluated plainly in double precision from the scene and the state.
 inline ClothStatistics plain_statistics(const SceneDescription& scene, const SimulationModel& model,
                                         const TwinCloth& state) {
@@ -161,6 +169,8 @@ inline ClothStatistics plain_statistics(const SceneDescription& scene, const Sim
         const double at[] = {x.x, x.y, x.z};
         plain.kinetic_energy += 0.5 * mass * speed * speed;
         plain.mass += mass;
+        const double moved[] = {double(d.x) + double(e.x), double(d.y) + double(e.y), double(d.z) + double(e.z)};
+        for (std::size_t k = 0; k < 3; ++k) plain.momentum[k] += mass * moved[k] / cloth.substep_length;
         for (std::size_t k = 0; k < 3; ++k) {
             plain.potential_energy -= mass * scene.gravity[k] * at[k];
             plain.center_of_mass[k] += mass * at[k];
@@ -169,7 +179,25 @@ inline ClothStatistics plain_statistics(const SceneDescription& scene, const Sim
         plain.largest_speed = std::max(plain.largest_speed, speed);
     }
     for (double& coordinate : plain.center_of_mass) coordinate /= plain.mass;
+    const bool on_pin = cloth.turn && cloth.turn->turns_held();
+    const glsl::ivec2 about = cloth.turn.value_or(KeptTurn{}).about;
+    const std::size_t pin =
+        cloth.grid.particle(static_cast<std::uint32_t>(about.x), static_cast<std::uint32_t>(about.y));
+    const Vec3 point = on_pin ? start_of(cloth, pin) : plain.center_of_mass;
+    for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
+        const Vec3 moved = times(mass_of(cloth, i) / cloth.substep_length, displacement_of(state, i));
+        plain.angular_momentum = plus(plain.angular_momentum, cross(minus(position_of(state, i), point), moved));
+    }
     return plain;
+}
+
+/// Momenta may cancel, so their error is relative to the motion of all of the mass.
+inline void expect_momenta(const ClothStatistics& statistics, const ClothStatistics& plain) {
+    const double moving = 1e-5 * std::sqrt(2 * plain.kinetic_energy * plain.mass);
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(statistics.momentum[k], plain.momentum[k], moving);
+        EXPECT_NEAR(statistics.angular_momentum[k], plain.angular_momentum[k], moving * plain.largest_distance);
+    }
 }
 
 }  // namespace drape::test

@@ -37,8 +37,9 @@ Seen seen(const FinishedFrame& frame) {
         result.statistics.insert(
             result.statistics.end(),
             {s.stretch.rms, s.shear.rms, s.stretch_error_rms, s.stretch_error_max, s.kinetic_energy, s.potential_energy,
-             s.elastic_energy, s.largest_distance, s.largest_speed, s.penetration.value_or(0),
-             double(s.iteration_count.value_or(0)), double(s.fastest.value_or(0))});
+             s.elastic_energy, s.momentum[1], s.angular_momentum[2], s.angular_error[0], s.largest_distance,
+             s.largest_speed, s.penetration.value_or(0), double(s.iteration_count.value_or(0)),
+             double(s.fastest.value_or(0))});
     return result;
 }
 

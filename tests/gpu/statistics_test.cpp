@@ -45,9 +45,10 @@ class StatisticsRun {
     /// Returns the record of cloth 0.
     glsl::StatisticsRecord record(const TwinCloth& state, std::uint32_t frame) {
         const std::string name = model_.cloths[0].name;
-        for (const Field field : {Field::position, Field::displacement, Field::end_excess})
-            vulkan::upload(test::gpu().device, pool_->image(resource_name(model_.cloths[0], row_of(field))),
-                           std::as_bytes(std::span(state[field])));
+        for (const Field each : {Field::position, Field::displacement, Field::end_excess, Field::angular_error})
+            if (!state[each].empty())
+                vulkan::upload(test::gpu().device, pool_->image(resource_name(model_.cloths[0], row_of(each))),
+                               state.bytes(each));
         for (std::size_t direction = 0; direction < stretch_direction_count; ++direction)
             vulkan::upload(test::gpu().device,
                            pool_->image(name + "/tension " + std::string(spring_directions[direction].name)),
@@ -56,7 +57,7 @@ class StatisticsRun {
         slots_.submit(0, recorded_->commands(0));
         slots_.wait(0);
         glsl::StatisticsRecord result;
-        const auto bytes = pool_->buffer(statistics_readback_name(model_.cloths[0].name), 0).mapped();
+        const auto bytes = pool_->buffer(statistics_readback_name(name), 0).mapped();
         std::memcpy(&result, bytes.data(), sizeof result);
         return result;
     }
@@ -113,6 +114,7 @@ void expect_plain(const ClothStatistics& statistics, const ClothStatistics& plai
     // Coordinates may cancel, so their error is relative to the distance.
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(statistics.center_of_mass[k], plain.center_of_mass[k], 1e-5 * plain.largest_distance);
+    test::expect_momenta(statistics, plain);
     expect_relative(statistics.largest_distance, plain.largest_distance, "largest distance");
     expect_relative(statistics.largest_speed, plain.largest_speed, "largest speed");
     EXPECT_EQ(statistics.non_finite_count, 0u);
@@ -121,8 +123,7 @@ void expect_plain(const ClothStatistics& statistics, const ClothStatistics& plai
 glsl::StatisticsRecord expect_same_record(const SimulationModel& model, const TwinCloth& state,
                                           std::uint32_t frame = 1) {
     StatisticsRun run(model);
-    const glsl::StatisticsRecord device = run.record(state, frame);
-    const glsl::StatisticsRecord twin = twin_statistics(model, 0, state, frame_inputs(model, frame));
+    const auto device = run.record(state, frame), twin = twin_statistics(model, 0, state, frame_inputs(model, frame));
     EXPECT_EQ(std::memcmp(&device, &twin, sizeof device), 0)
         << "stretch " << device.squares.x << " against " << twin.squares.x << ", shear " << device.squares.y
         << " against " << twin.squares.y << ", springs " << device.counts.z << " against " << twin.counts.z;

@@ -60,6 +60,10 @@ class Reduction {
   private:
     StatisticsRecord part_of_column(ivec2 first) const {
         StatisticsRecord record = empty_statistics();
+        if (first.x == 0 && first.y == 0 && !state_[Field::angular_error].empty()) {
+            const vec3 taken = xyz(state_[Field::angular_error][0]);
+            record.errors = {record.errors.x, taken.x, taken.y, taken.z};
+        }
         for (int row = 0; row < statistics_rows; ++row) {
             const ivec2 particle{first.x, first.y + row};
             if (inside(particle)) record = joined(record, statistics_of(particle));
@@ -74,9 +78,10 @@ class Reduction {
         const std::size_t index = at(particle);
         const vec4 position = state_[Field::position][index];
         const float share = state_.topology.masked() ? masses_[index] : border_mass_share(particle, push_.grid);
-        const vec3 velocity = xyz(state_[Field::displacement][index]) + xyz(state_[Field::end_excess][index]);
+        const vec3 moved = xyz(state_[Field::displacement][index]),
+                   velocity = moved + xyz(state_[Field::end_excess][index]);
         StatisticsRecord record =
-            particle_statistics(xyz(position), velocity, share, xyz(reference_), static_cast<uint>(index));
+            particle_statistics(xyz(position), moved, velocity, share, xyz(reference_), static_cast<uint>(index));
         if (record.counts.x != 0) return record;
         for (int direction = 0; direction < 4; ++direction) record = with_spring(record, particle, direction);
         if (cloth_.bend > 0) record = with_bending(record, particle);

@@ -18,6 +18,7 @@
 #include "drape/error.h"
 #include "drape/frame.h"
 #include "drape/kernels.h"
+#include "drape/momenta.h"
 #include "drape/scene_reader.h"
 #include "drape/view.h"
 
@@ -77,6 +78,7 @@ struct SimulationFacts {
     bool limits_are_kept = false;
     std::vector<Skipped> skipped;
     std::vector<Compromise> compromises;
+    std::vector<Momenta> momenta;  ///< by cloth
     /// Counts in a frame that is handed out, and in one that is only simulated.
     std::size_t pass_count = 0, barrier_count = 0, simulated_pass_count = 0, simulated_barrier_count = 0;
 };

@@ -25,8 +25,14 @@ struct ClothStatistics {
     double stretch_error_rms = 0, stretch_error_max = 0;
     /// J, from the velocities at the frame's end: those of the last substep and half its acceleration.
     double kinetic_energy = 0;
-    double potential_energy = 0;             ///< J, gravity's; 0 at the origin
-    double elastic_energy = 0;               ///< J, of bending and of springs; rigid ones store none
+    double potential_energy = 0;       ///< J, gravity's; 0 at the origin
+    double elastic_energy = 0;         ///< J, of bending and of springs; rigid ones store none
+    std::array<double, 3> momentum{};  ///< kg m/s, at the frame's end
+    /// kg m^2/s, over the last substep; about the centre of mass, or of cloth that is held on an axis on which it turns
+    /// freely, about a point of that.
+    std::array<double, 3> angular_momentum{};
+    /// kg m^2/s: what the method made of it in this frame out of nothing, and took back by turning the cloth.
+    std::array<double, 3> angular_error{};
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
     /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.
