@@ -67,8 +67,8 @@ Collider turned(const ColliderShape& shape) {
     return {shape, 0.3, {0, 0, by_angle ? 25.0 : 0.0}};
 }
 
-/// What the start costs, m: beside a capsule's middle line the sheet starts 4 um above it, and falls.
-double start_costs(const ColliderShape& shape) { return std::holds_alternative<Capsule>(shape) ? 2.5e-6 : 3e-7; }
+/// What is left to the start, m: beside a capsule's crest the sheet starts 4 um above it and falls, off balance.
+double start_costs(const ColliderShape& shape) { return std::holds_alternative<Capsule>(shape) ? 1e-5 : 3e-7; }
 
 /// Frames that so many substeps may cost.
 std::uint32_t frames_for(std::uint32_t substeps) { return substeps > 1000 ? 8 : substeps > 200 ? 24 : 60; }
@@ -96,7 +96,7 @@ TEST(CoulombTest, SticksAtAnyNumberOfSubsteps) {
                 for (const double mu : {0.47, 1.0}) {  // tan 25 degrees = 0.4663
                     const double crept =
                         along(moved_in(on_slope(turned(shape), mu, method, substeps), frames_for(substeps)), downhill);
-                    EXPECT_NEAR(crept, 0, 10 * start_costs(shape))
+                    EXPECT_NEAR(crept, 0, 3 * start_costs(shape))
                         << "kind " << shape.index() << ", method " << static_cast<int>(method) << ", " << substeps
                         << " substeps, friction " << mu;
                 }
