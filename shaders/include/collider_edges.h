@@ -128,6 +128,13 @@ SHARED vec3 touching_point(BoxCut cut, CutCorner a, CutCorner b, CutCorner c) {
     return touching;
 }
 
+/// Returns the depth at which contact leaves an edge that was at depth `before` when the substep began; 0 if it was
+/// outside. An overlap is resolved by `recovery` (m) per substep.
+SHARED float kept_depth(float before, float recovery) {
+    precise float kept = before - recovery;
+    return kept > 0.0f ? kept : 0.0f;
+}
+
 /// Returns `taken` (m, local), by which the triangle's first corner has already been moved, extended by what a cut asks
 /// for beyond it. `surface`: displacement of the collider at the touching point, m, world frame.
 SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,

@@ -190,20 +190,6 @@ SHARED vec3 moved_position(vec3 start, vec3 displacement) {
     return now;
 }
 
-/// Returns the depth at which contact leaves a particle that was at depth `before` when the substep began; 0 if it was
-/// outside. An overlap is resolved by `recovery` (m) per substep, so that it does not become speed.
-SHARED float kept_depth(float before, float recovery) {
-    precise float kept = before - recovery;
-    return kept > 0.0f ? kept : 0.0f;
-}
-
-/// Returns how much of a contact's depth leads a particle out of the overlap in which it began the substep.
-SHARED float led_out(float depth, float before, float recovery) {
-    float overlap = before > 0.0f ? before : 0.0f;
-    float led = overlap < recovery ? overlap : recovery;
-    return depth < led ? depth : led;
-}
-
 SHARED vec3 led_sum(vec3 a, vec3 b) {
     precise vec3 sum = a + b;
     return sum;
@@ -448,24 +434,23 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     // The overlap at the substep's start is measured where the collider has since carried the particle's place; for a
     // mesh that deforms, with the form that it had then.
     bool deforms = is_deforming(kind, collider FIELDS);
-    vec3 surface = surface_displacement(collider, local);
+    vec3 local_before = local_at_start(collider, start);
+    vec3 surface = surface_displacement(collider, local_before);
     vec3 carried = moved_position(start, surface);
-    vec3 local_carried = local_point(collider, carried);
-    if (far || deforms) local_carried = local_at_start(collider, start);
-    precise vec3 way = local - local_carried;
-    WayIn in_by = way_in(kind, collider, carried, local_carried, way, thickness, far, deforms FIELDS);
+    precise vec3 way = local - local_before;
+    WayIn in_by = way_in(kind, collider, carried, local_before, way, thickness, far, deforms FIELDS);
     if (!(inside > 0.0f) && !in_by.comes_in) return none;
     if (in_by.comes_in) {
         precise float beyond = in_by.by.distance + ordered_dot(in_by.by.normal, local - in_by.at);
-        precise vec3 carried_by = displacement - world_direction(collider, way);
         found = SurfacePoint(in_by.by.normal, beyond);
-        surface = carried_by;
     }
     float before = in_by.before;
+    vec3 normal_before = in_by.by.normal;
     if (kind == kind_box && before > recovery && has_way_out(collider)) {
         found = way_out_surface(collider, local);
-        precise float by_one_face = thickness - way_out_surface(collider, local_carried).distance;
+        precise float by_one_face = thickness - way_out_surface(collider, local_before).distance;
         before = by_one_face;
+        normal_before = found.normal;
     }
     vec3 out_of = kind == kind_plane ? found.normal : world_direction(collider, found.normal);
     if (deforms) {
@@ -476,12 +461,21 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
         precise float gone_on = found.distance - (1.0f - in_by.share) * ordered_dot(out_of, deformed);
         if (in_by.comes_in) found = SurfacePoint(found.normal, gone_on);
     }
-    precise float depth = thickness - found.distance - kept_depth(before, recovery);
-    if (!(depth > 0.0f)) return none;
+    // The motion is taken along the mean of the normals at both of its ends.
+    precise vec3 mean = (normal_before + found.normal) * 0.5f;
+    vec3 along = kind == kind_plane ? mean : world_direction(collider, mean);
+    precise vec3 relative = displacement - surface;
+    precise float shown = thickness - found.distance - before;
+    float rounding = rounding_at(start, local);
+    float inward = moved_inward(-ordered_dot(relative, along), shown, rounding);
+    Depth deep = contact_depth(before, inward, recovery, rounding);
+    precise float depth = deep.pressed + deep.led;
+    precise float least = largest_coordinate(relative) * 2.4e-7f;  // what rounding left of a motion taken away before
+    if (!(depth > least)) return none;
     precise float pair_friction = friction * collider.shape.w;
-    precise vec3 led = out_of * led_out(depth, before, recovery);
-    return Contact(contact_displacement(displacement, surface, out_of, depth, pair_friction), depth, out_of,
-                   vec4(surface.x, surface.y, surface.z, pair_friction), led);
+    precise vec3 led = out_of * deep.led;
+    vec3 held = contact_displacement(displacement, surface, out_of, deep.pressed, pair_friction);
+    return Contact(led_sum(held, led), depth, out_of, vec4(surface.x, surface.y, surface.z, pair_friction), led);
 }
 
 #endif

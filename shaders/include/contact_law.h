@@ -5,9 +5,10 @@
 #include "include/vector.h"
 #include "shared/collider_types.h"
 
-/// Returns the displacement after contact: the particle is moved out by `depth` along `normal`, and its motion relative
-/// to the surface along the tangent is reduced by friction * depth, at most to zero (Jakobsen 2001; with depth g cos(a)
-/// h^2 of a resting particle this is Coulomb's law). `displacement`, `surface` (the collider's own): m.
+/// Returns the displacement after contact: `depth` of the motion into the surface is taken away along `normal`, and the
+/// motion relative to the surface along the tangent is reduced by friction * depth, at most to zero (Jakobsen 2001).
+/// This is Coulomb's law, since what is taken away along the normal in a time is the impulse that the surface gives in
+/// it: of a resting particle g cos(a) h^2. `displacement`, `surface` (the collider's own): m.
 SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
     precise vec3 relative = displacement - surface;
     precise float along = ordered_dot(relative, normal);
@@ -38,12 +39,52 @@ SHARED vec3 way_between(vec3 start, vec3 led) {
     return way;
 }
 
+SHARED float largest_coordinate(vec3 at) {
+    vec3 size = vec3(abs(at.x), abs(at.y), abs(at.z));
+    float larger = size.x > size.y ? size.x : size.y;
+    return larger > size.z ? larger : size.z;
+}
+
 /// Returns whether a displacement is no longer than the rounding of coordinates of this size.
 SHARED bool is_rounding(vec3 start, vec3 way) {
-    vec3 from = vec3(abs(start.x), abs(start.y), abs(start.z)), by = vec3(abs(way.x), abs(way.y), abs(way.z));
-    float farther = from.x > from.y ? from.x : from.y, longer = by.x > by.y ? by.x : by.y;
-    precise float rounded = (farther > from.z ? farther : from.z) * 1.2e-7f;
-    return !((longer > by.z ? longer : by.z) > rounded);
+    precise float rounded = largest_coordinate(start) * 1.2e-7f;
+    return !(largest_coordinate(way) > rounded);
+}
+
+/// Returns a bound on what rounding does to the distance of a point from a collider, m.
+SHARED float rounding_at(vec3 world, vec3 local) {
+    precise float rounding = (largest_coordinate(world) + largest_coordinate(local)) * 2.4e-7f;
+    return rounding;
+}
+
+/// How much of a contact's depth is of which kind, m.
+struct Depth {
+    float pressed;  // the particle's motion into the surface, which contact takes away and which friction is paid for
+    float led;      // what leads it out of an overlap in which it began the substep: no velocity, and without friction
+};
+
+/// Returns the depth of a contact. `before`: how deep the particle was when the substep began, negative outside;
+/// `inward`: how far it has moved into the surface since; `recovery`: how much of an overlap a substep resolves, so
+/// that it does not become speed. Contact leaves particles `rounding` deep, and one that is within rounding of that
+/// lies on the surface: all of its motion inward is taken away, since in a short substep that is less than positions
+/// show.
+SHARED Depth contact_depth(float before, float inward, float recovery, float rounding) {
+    precise float deep = before - rounding;
+    float outside = deep < -rounding ? deep : 0.0f;
+    float overlap = deep > rounding ? deep : 0.0f;
+    float leads = overlap < recovery ? overlap : recovery;
+    precise float depth = inward + outside + leads;
+    if (!(depth > 0.0f)) return Depth(0.0f, 0.0f);
+    float led = depth < leads ? depth : leads;
+    precise float pressed = depth - led;
+    return Depth(pressed, led);
+}
+
+/// Returns how far a particle has moved into a surface: `by_motion`, which keeps its digits in a short substep but is
+/// right to second order in its length alone, unless it is not within rounding of what positions show.
+SHARED float moved_inward(float by_motion, float shown, float rounding) {
+    precise float apart = by_motion - shown;
+    return abs(apart) > rounding ? shown : by_motion;
 }
 
 #endif
