@@ -16,15 +16,13 @@ using fuzz::require;
 
 constexpr const char* loop_part = "loop";
 
-/// Reads the state of a loop of method `auto`, and goes on with it for a while.
+/// Takes the state of a loop for that of its substep control alone, whose numbers are then any, and goes on with it for
+/// a while.
 void go_on(const std::vector<std::byte>& bytes) {
     const Method& method = row_of(SolverMethod::line);
-    SubstepControl control(method, 8, 2, 6);
+    SubstepControl control(method, 8, {2, 4}, 6);
     ByteReader reader(bytes);
     try {
-        std::uint32_t next_frame = 0, substeps = 0, simulated = 0;
-        double motion_error = 0;
-        reader(next_frame, substeps, simulated, motion_error);  // as in loop_state.cpp
         if (!control.transfer(reader)) return;
     } catch (const Error&) {
         return;
@@ -41,7 +39,8 @@ void go_on(const std::vector<std::byte>& bytes) {
             const double stretch = dice.log_uniform(1e-3, 1e3), motion = dice.log_uniform(1e-3, 1e3),
                          coarse = dice.log_uniform(1e-3, 1e3);
             const bool plausible = dice.chance(0.8);
-            verdict = control.judge({stretch, motion, coarse, plausible});
+            verdict =
+                control.judge({.stretch = stretch, .motion = motion, .coarse_stretch = coarse, .plausible = plausible});
         }
         if (verdict == SubstepControl::Verdict::give_up) control.keep_anyway();
     }
