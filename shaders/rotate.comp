@@ -51,7 +51,8 @@ Rotation rotation;
 
 void rotate(ivec2 texel) {
     vec4 position = LOAD(position, texel), moved = LOAD(displacement_in, texel);
-    vec3 displacement = rotated(rotation, position.xyz - start, moved.xyz);
+    precise vec3 arm = position.xyz - start;
+    vec3 displacement = rotated(rotation, arm, moved.xyz);
     STORE_TRIPLE(displacement_out, texel, position.w == 0.0f ? moved.xyz : displacement, moved.w);
 }
 

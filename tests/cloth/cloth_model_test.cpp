@@ -237,7 +237,7 @@ TEST(FrameStepsTest, LineFramesPredictInSecondOrderWithCollidersToo) {
         list.push_back(advance);
         return list;
     };
-    EXPECT_EQ(kinds(), expected({predict, line, line, line, line, line, line, line, line}));
+    EXPECT_EQ(kinds(), expected({predict, line, line, line, line, line, line, line, line, torque, rotate}));
     scene.colliders.push_back({Sphere{}});
     scene.cloths[0].stiffness.shear = 0;
     EXPECT_EQ(kinds(), expected({predict, line, line, collide, line, line, collide}));
