@@ -76,8 +76,11 @@ TEST(StatisticsTest, PenetrationIsUnderTheThicknessThatEachClothsMapGives) {
     }
     const std::vector<ClothStatistics> together = after_frames(scene, 0);
     ASSERT_EQ(together.size(), 3u);
+    // Of a depth contact takes what coordinates round for none, in the world and in the collider's frame (rounding_at).
     for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_NEAR(together[k].penetration.value(), 0.08 * double{factors[k]} - 0.01, 1e-6) << k;
+        EXPECT_NEAR(together[k].penetration.value(), 0.08 * double{factors[k]} - 0.01,
+                    1e-6 + 4.8e-7 * together[k].largest_distance)
+            << k;
 }
 
 }  // namespace
