@@ -57,11 +57,6 @@ void AutoPilot::begin() {
     const Segment& segment = control_.begin(probe_room(model_, simulated_), drive_.eventful(simulated_));
     if (segment.probes) drive_.probed(simulated_, segment.frame_count);
     kept_.effort.attempts = 0;
-    if (simulated_ == 1 && model_.has_companions() && starts_in_balance(model_)) {
-        stated_.sensitivity.begin(0);
-        attempt_.phase = Phase::disturb_start;
-        return;
-    }
     begin_attempt();
 }
 
@@ -119,11 +114,6 @@ Work AutoPilot::frame_beside(StateSet set) {
     return work;
 }
 
-Work AutoPilot::disturb() {
-    history_in(histories_, StateSet::disturbed) = history_in(histories_, StateSet::companion);
-    return step_alone(kept_.first, StateStep::disturb);
-}
-
 Work AutoPilot::handed_out(std::uint32_t frame) const {
     Work work;
     work.frame = frame;
@@ -152,9 +142,6 @@ std::optional<Work> AutoPilot::next_work() {
             attempt_.phase = Phase::done;
             return Work{.frame = kept_.first, .hands_out = true, .known = std::move(still)};
         }
-        case Phase::disturb_start:
-            begin_attempt();
-            return disturb();
         case Phase::coarse:
             return attempted(control_.segment().substeps / 2, StateStep::remember);
         case Phase::fine:
@@ -171,8 +158,9 @@ std::optional<Work> AutoPilot::next_work() {
         case Phase::compare_disturbed:
             return step_alone(kept_.first, StateStep::compare_disturbed);
         case Phase::disturb:
+            history_in(histories_, StateSet::disturbed) = history_in(histories_, StateSet::companion);
             finish();
-            return disturb();
+            return step_alone(kept_.first, StateStep::disturb);
         case Phase::finish: {
             attempt_.phase = Phase::done;
             return handed_out(simulated_ - 1);
@@ -312,6 +300,7 @@ void AutoPilot::follow(StateSet done) {
 void AutoPilot::take_differences(StateStep step, std::span<const double> differences) {
     auto& [error, sensitivity] = stated_;
     const std::uint32_t last = simulated_ - 1;
+    const bool is_first = std::isnan(error.error());
     if (step == StateStep::compare_companion) {
         error.saw(last, control_.segment().substeps, differences);
         if (sensitivity.runs()) {
@@ -321,7 +310,8 @@ void AutoPilot::take_differences(StateStep step, std::span<const double> differe
     } else {
         sensitivity.saw(last, differences, error);
     }
-    const bool begins = sensitivity.begins(last, error, kept_.effort.predictable);
+    const bool begins =
+        sensitivity.begins(last, error, kept_.effort.predictable) || (is_first && starts_in_balance(model_));
     if (begins) sensitivity.begin(last);
     if (sensitivity.excuses())
         control_.accumulated({.share = 0});

@@ -37,13 +37,12 @@ class AutoPilot : public Pilot {
     /// The work on a segment passes through these phases in order, and skips a phase that it does not need.
     enum class Phase {
         done,
-        asleep,         ///< hands out the previous frame again
-        disturb_start,  ///< begins the disturbed run at frame 0
-        coarse,         ///< simulates a probe's frames with half the substeps
-        fine,           ///< simulates the segment's frames
-        hand_out,       ///< hands out a frame of the probe other than its last
-        companion,      ///< simulates the segment's frames in the companion's state set
-        disturbed,      ///< simulates them in the disturbed run's state set
+        asleep,     ///< hands out the previous frame again
+        coarse,     ///< simulates a probe's frames with half the substeps
+        fine,       ///< simulates the segment's frames
+        hand_out,   ///< hands out a frame of the probe other than its last
+        companion,  ///< simulates the segment's frames in the companion's state set
+        disturbed,  ///< simulates them in the disturbed run's state set
         compare_companion,
         compare_disturbed,
         disturb,  ///< begins the disturbed run
@@ -73,7 +72,6 @@ class AutoPilot : public Pilot {
     /// Returns the attempt's next frame, with a step at the end of the segment.
     Work attempted(std::uint32_t substeps, std::optional<StateStep> at_end);
     Work frame_beside(StateSet set);
-    Work disturb();
     Work handed_out(std::uint32_t frame) const;
     void begin_attempt();
     void take_coarse(const WorkResult& result);

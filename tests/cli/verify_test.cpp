@@ -100,7 +100,7 @@ TEST(Verify, JudgesTheMotionWhereItsErrorIsEstimated) {
 }
 
 TEST(Verify, NoOracleIsMetByFramesThatThereAreNot) {
-    const std::string swing = R"({"check": "swing", "cloth": 1, "least": 0, "most": 1, )";
+    const std::string swing = R"({"check": "swing", "cloth": 1, "least": 0, "most": 1.001, )";
     for (const char* frames : {R"("from_frame": 20, "until_frame": 10})", R"("from_frame": 10, "until_frame": 10})",
                                R"("from_frame": 90, "until_frame": 99})"}) {
         const Outcome outcome = verify(SceneFolder(scene_with(swing + frames)), {"--no-validate"});
