@@ -65,11 +65,10 @@ struct Depth {
 
 /// Returns the depth of a contact. `before`: how deep the particle was when the substep began, negative outside;
 /// `inward`: how far it has moved into the surface since; `recovery`: how much of an overlap a substep resolves, so
-/// that it does not become speed. Contact leaves particles `rounding` deep, and one that is within rounding of that
-/// lies on the surface: all of its motion inward is taken away, since in a short substep that is less than positions
-/// show.
-SHARED Depth contact_depth(float before, float inward, float recovery, float rounding) {
-    precise float deep = before - rounding;
+/// that it does not become speed. Contact leaves particles `left` deep, and one that is within rounding of that lies on
+/// the surface: all of its motion inward is taken away, since in a short substep that is less than positions show.
+SHARED Depth contact_depth(float before, float inward, float recovery, float rounding, float left) {
+    precise float deep = before - left;
     float outside = deep < -rounding ? deep : 0.0f;
     float overlap = deep > rounding ? deep : 0.0f;
     float leads = overlap < recovery ? overlap : recovery;

@@ -128,7 +128,8 @@ TEST_P(EndVelocity, OfWhatOtherClothPressesOnAFloorIsTheOneThatTheFloorLeaves) {
     for (std::uint32_t frame = 1; frame <= 20; ++frame) {
         twin.run_frame(frame);
         for (std::size_t i = 0; i < model.cloths[0].grid.particle_count(); ++i) {
-            if (std::abs(double(lower[Field::position][i].y) - 0.002) > 1e-7) continue;
+            // Contact leaves particles deeper by what coordinates round (rounding_at).
+            if (std::abs(double(lower[Field::position][i].y) - 0.002) > 6e-7) continue;
             ++lying;
             worst = std::max(worst, std::abs(double(lower[Field::end_excess][i].y)));
         }
