@@ -444,9 +444,7 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
         precise float beyond = in_by.by.distance + ordered_dot(in_by.by.normal, local - in_by.at);
         found = SurfacePoint(in_by.by.normal, beyond);
     }
-    // Whatever comes in was not farther outside than the two move; beyond its field a mesh is at no stated distance.
-    float outside_most = -most_way(length, motion);
-    float before = in_by.before < outside_most ? outside_most : in_by.before;
+    float before = in_by.before;
     vec3 normal_before = in_by.by.normal;
     if (kind == kind_box && before > recovery && has_way_out(collider)) {
         found = way_out_surface(collider, local);
@@ -468,10 +466,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     vec3 along = kind == kind_plane ? mean : world_direction(collider, mean);
     precise vec3 relative = displacement - surface;
     precise float shown = thickness - found.distance - before;
-    float rounding = rounding_at(start, local);
-    float inward = moved_inward(-ordered_dot(relative, along), shown, rounding);
-    // Of a mesh they are left none: beside a kink of its field they would have another normal.
-    Depth deep = contact_depth(before, inward, recovery, rounding, kind == kind_mesh ? 0.0f : rounding);
+    Depth deep = contact_depth(before, -ordered_dot(relative, along), shown, recovery, rounding_at(start, local),
+                               kind == kind_mesh);
     precise float depth = deep.pressed + deep.led;
     precise float least = largest_coordinate(relative) * 2.4e-7f;  // what rounding left of a motion taken away before
     if (!(depth > least)) return none;

@@ -63,27 +63,29 @@ struct Depth {
     float led;      // what leads it out of an overlap in which it began the substep: no velocity, and without friction
 };
 
-/// Returns the depth of a contact. `before`: how deep the particle was when the substep began, negative outside;
-/// `inward`: how far it has moved into the surface since; `recovery`: how much of an overlap a substep resolves, so
-/// that it does not become speed. Contact leaves particles `left` deep, and one that is within rounding of that lies on
-/// the surface: all of its motion inward is taken away, since in a short substep that is less than positions show.
-SHARED Depth contact_depth(float before, float inward, float recovery, float rounding, float left) {
-    precise float deep = before - left;
-    float outside = deep < -rounding ? deep : 0.0f;
-    float overlap = deep > rounding ? deep : 0.0f;
-    float leads = overlap < recovery ? overlap : recovery;
-    precise float depth = inward + outside + leads;
-    if (!(depth > 0.0f)) return Depth(0.0f, 0.0f);
-    float led = depth < leads ? depth : leads;
-    precise float pressed = depth - led;
-    return Depth(pressed, led);
-}
-
 /// Returns how far a particle has moved into a surface: `by_motion`, which keeps its digits in a short substep but is
 /// right to second order in its length alone, unless it is not within rounding of what positions show.
 SHARED float moved_inward(float by_motion, float shown, float rounding) {
     precise float apart = by_motion - shown;
     return abs(apart) > rounding ? shown : by_motion;
+}
+
+/// Returns the depth of a contact. `before`: how deep the particle was when the substep began, negative outside;
+/// `by_motion`, `shown`: how far it has moved into the surface since, by its motion and by its places; `recovery`: how
+/// much of an overlap a substep resolves, so that it does not become speed. Contact leaves particles `rounding` deep,
+/// but not in a mesh, where they would have another normal beside a kink of its field. One that is within rounding of
+/// that lies on the surface: all of its motion inward is taken away, since in a short substep that is less than
+/// positions show.
+SHARED Depth contact_depth(float before, float by_motion, float shown, float recovery, float rounding, bool in_mesh) {
+    precise float deep = before - (in_mesh ? 0.0f : rounding);
+    float outside = deep < -rounding ? deep : 0.0f;
+    float overlap = deep > rounding ? deep : 0.0f;
+    float leads = overlap < recovery ? overlap : recovery;
+    precise float depth = moved_inward(by_motion, shown, rounding) + outside + leads;
+    if (!(depth > 0.0f)) return Depth(0.0f, 0.0f);
+    float led = depth < leads ? depth : leads;
+    precise float pressed = depth - led;
+    return Depth(pressed, led);
 }
 
 #endif
