@@ -466,8 +466,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     vec3 along = kind == kind_plane ? mean : world_direction(collider, mean);
     precise vec3 relative = displacement - surface;
     precise float shown = thickness - found.distance - before;
-    Depth deep = contact_depth(before, -ordered_dot(relative, along), shown, recovery, rounding_at(start, local),
-                               kind == kind_mesh);
+    Depth deep =
+        contact_depth(before, -ordered_dot(relative, along), shown, recovery, rounding_at(start, local), deforms);
     precise float depth = deep.pressed + deep.led;
     precise float least = largest_coordinate(relative) * 2.4e-7f;  // what rounding left of a motion taken away before
     if (!(depth > least)) return none;

@@ -73,11 +73,11 @@ SHARED float moved_inward(float by_motion, float shown, float rounding) {
 /// Returns the depth of a contact. `before`: how deep the particle was when the substep began, negative outside;
 /// `by_motion`, `shown`: how far it has moved into the surface since, by its motion and by its places; `recovery`: how
 /// much of an overlap a substep resolves, so that it does not become speed. Contact leaves particles `rounding` deep,
-/// but not in a mesh, where they would have another normal beside a kink of its field. One that is within rounding of
-/// that lies on the surface: all of its motion inward is taken away, since in a short substep that is less than
-/// positions show.
-SHARED Depth contact_depth(float before, float by_motion, float shown, float recovery, float rounding, bool in_mesh) {
-    precise float deep = before - (in_mesh ? 0.0f : rounding);
+/// but not where a mesh `deforms`: beside a kink of its field a fast wall would have them on its other side. One that
+/// is within rounding of that lies on the surface: all of its motion inward is taken away, since in a short substep
+/// that is less than positions show.
+SHARED Depth contact_depth(float before, float by_motion, float shown, float recovery, float rounding, bool deforms) {
+    precise float deep = before - (deforms ? 0.0f : rounding);
     float outside = deep < -rounding ? deep : 0.0f;
     float overlap = deep > rounding ? deep : 0.0f;
     float leads = overlap < recovery ? overlap : recovery;
