@@ -1,4 +1,4 @@
-// What of a cloth the wind acts on, after holes and cuts (docs/physics.md 6).
+// The wind acts on those quarters of cells that holes and cuts leave (docs/physics.md 6).
 #pragma once
 
 #include <cstdint>

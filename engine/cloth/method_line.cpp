@@ -160,8 +160,8 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
     carry_tension_to_release(cloth, settings, scheme);
 }
 
-/// What a substep gives to a cloth in the place of its own forces has a torque, since the links go on turning after
-/// their pulls were found. A rotation of the whole cloth takes that back.
+/// A substep's pulls have a torque, which the cloth's own forces have not, since the links go on turning after their
+/// pulls were found. A rotation of the whole cloth takes that back.
 void add_rotation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
     if (!settings.turn) return;
     const KeptTurn& turn = *settings.turn;

@@ -1,4 +1,4 @@
-// What may change a cloth's momentum, and its angular momentum about the point that its statistics take.
+// This names what may change a cloth's momentum, and its angular momentum about the point that its statistics take.
 #pragma once
 
 #include "cloth/simulation_model.h"

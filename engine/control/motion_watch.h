@@ -1,4 +1,4 @@
-// What a run has to say of its motion in the end: the worst frame of its position error, frames that were kept over
+// A run tells this of its motion in the end: the worst frame of its position error, frames that were kept over
 // their limit, and from where on equally exact runs part.
 #pragma once
 

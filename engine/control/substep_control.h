@@ -40,7 +40,7 @@ struct Segment {
     bool operator==(const Segment&) const = default;
 };
 
-/// What the companion shows where it was compared, divided by what the motion's limit allows (control/motion_error.h):
+/// The companion shows this where it was compared, divided by what the motion's limit allows (control/motion_error.h):
 /// the position error, and how fast it grew since the last comparison. Not numbers: not known.
 struct Trend {
     double share = std::numeric_limits<double>::quiet_NaN(), growth = std::numeric_limits<double>::quiet_NaN();
@@ -130,7 +130,7 @@ class SubstepControl {
     struct Lagged {
         double substeps = 0, lag = 0;
     };
-    /// What is known of the attempts at the segment.
+    /// This is known of the attempts at the segment.
     struct Attempt {
         std::size_t began = 0;   ///< the rung before the segment began
         std::size_t rung = 0;    ///< of the current attempt

@@ -22,7 +22,7 @@ struct StageTime {
     double milliseconds = 0;
 };
 
-/// What an attempt of method `auto` at a frame, or at a few frames together, may fail by (docs/solvers.md).
+/// An attempt of method `auto` at a frame, or at a few frames together, may fail by one of these (docs/solvers.md).
 enum class Criterion { stretch, motion, passage, lag, watch };
 inline constexpr std::array<std::string_view, 5> criterion_names{"stretch", "motion", "passage", "lag", "watch"};
 struct FailedAttempt {
@@ -39,7 +39,7 @@ struct FrameEffort {
     /// Method `auto` estimates the error of the motion in this frame, that of the worst cloth, in m per second of
     /// simulated time; NaN where it did not.
     double motion_error = std::numeric_limits<double>::quiet_NaN();
-    /// What tolerance_motion allows this cloth, m/s.
+    /// tolerance_motion allows this cloth so much, m/s.
     double motion_allowed = std::numeric_limits<double>::quiet_NaN();
     /// Method `auto` estimates how far the frame's positions are from those of the exact motion by now: the RMS over
     /// the worst cloth's mass, m, true within a factor of 3 in four of five scenes; NaN where nothing was simulated,

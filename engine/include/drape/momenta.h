@@ -5,7 +5,7 @@
 
 namespace drape {
 
-/// What may change the momenta of a cloth that its statistics have. What is not named here does not.
+/// These may change the momenta of a cloth that its statistics have. Nothing else does.
 struct Momenta {
     std::string cloth;
     std::string about;  ///< the point that the angular momentum is about
