@@ -67,12 +67,13 @@ void set_axis(const SceneDescription& scene, const ClothGeometry& cloth, const s
 
 /// Returns the particle with mass that is nearest to the middle of the grid.
 std::size_t middle_particle(const ClothGeometry& cloth) {
-    const double columns = cloth.grid.columns(), middle_x = (columns - 1) / 2, middle_y = (cloth.grid.rows() - 1) / 2.0;
+    const std::size_t columns = cloth.grid.columns();
+    const double middle_x = (double(columns) - 1) / 2, middle_y = (double(cloth.grid.rows()) - 1) / 2;
     std::size_t nearest = 0;
     double least = infinity;
     for (std::size_t i = 0; i < cloth.free_weight.size(); ++i) {
-        const double away =
-            std::hypot(double(i % cloth.grid.columns()) - middle_x, double(i / cloth.grid.columns()) - middle_y);
+        const std::size_t column = i % columns, row = i / columns;
+        const double away = std::hypot(double(column) - middle_x, double(row) - middle_y);
         if (cloth.free_weight[i] > 0 && away < least) least = away, nearest = i;
     }
     return nearest;

@@ -93,7 +93,9 @@ TEST(Motion, NeverLeavesTheRangeOfTheKeysAroundIt) {
                     ASSERT_GE((at[i] - last[i]) * (to[i] > from[i] ? 1 : -1), -rounding) << "it goes back";
                     ASSERT_GE(at[i], std::min(from[i], to[i]) - rounding);
                     ASSERT_LE(at[i], std::max(from[i], to[i]) + rounding);
-                    if (from[i] == to[i]) ASSERT_EQ(at[i], from[i]);
+                    if (from[i] == to[i]) {
+                        ASSERT_EQ(at[i], from[i]);
+                    }
                 }
                 last = at;
             }
