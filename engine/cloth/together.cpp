@@ -50,7 +50,6 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
         case ClothKey::velocities:
         case ClothKey::pins:
         case ClothKey::appearance:
-            return true;
         // In a scene where a cloth tears, no cloths share dispatches.
         case ClothKey::tear:
         case ClothKey::cell_tear:

@@ -251,8 +251,10 @@ void FolderRun::write_checkpoint() {
 /// Simulates to the last frame, with checkpoints when they are due and when the run is stopped. Returns whether it
 /// reached the last frame.
 bool FolderRun::run_with_checkpoints(const FrameRequest& request) {
-    const auto& [last, wanted, finished, stopped] = request;
-    if (!keeps_checkpoints()) return simulation_->run(last, wanted, finished, stopped);
+    const auto run = [&](const auto& stopped) {
+        return simulation_->run(request.last, request.wanted, request.finished, stopped);
+    };
+    if (!keeps_checkpoints()) return run(request.stop);
     std::uint32_t saved = simulation_->next_frame();
     std::optional<std::uint32_t> begun;
     for (bool due = true; due;) {
@@ -263,12 +265,12 @@ bool FolderRun::run_with_checkpoints(const FrameRequest& request) {
             const std::uint32_t frame = simulation_->next_frame();
             due = begun != frame && frame > saved && checkpoints_->due();  // no attempt is given up for a checkpoint
             begun = frame;
-            return due || stopped();
+            return due || request.stop();
         };
-        if (simulation_->run(last, wanted, finished, pause)) return true;
+        if (run(pause)) return true;
         if (simulation_->next_frame() > saved) write_checkpoint();
         saved = simulation_->next_frame();
-        due = due && !stopped();
+        due = due && !request.stop();
     }
     if (saved > 0) summary_.checkpoint = saved;
     return false;

@@ -32,9 +32,9 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
     values[cloth + "/center_of_mass_y_m"] = statistics.center_of_mass[1];
     values[cloth + "/center_of_mass_z_m"] = statistics.center_of_mass[2];
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::string axis(1, "xyz"[k]);
-        values[cloth + "/momentum_" + axis + "_kg_m_s"] = statistics.momentum[k];
-        values[cloth + "/angular_momentum_" + axis + "_kg_m2_s"] = statistics.angular_momentum[k];
+        const char axis = "xyz"[k];
+        values[fmt::format("{}/momentum_{}_kg_m_s", cloth, axis)] = statistics.momentum[k];
+        values[fmt::format("{}/angular_momentum_{}_kg_m2_s", cloth, axis)] = statistics.angular_momentum[k];
     }
     values[cloth + "/angular_error_kg_m2_s"] = length(statistics.angular_error);
     values[cloth + "/distance_max_m"] = statistics.largest_distance;

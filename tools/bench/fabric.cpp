@@ -102,7 +102,7 @@ class Shadow {
             }
         for (int y = pixel(low[1]); y <= pixel(high[1]); ++y)
             for (int x = pixel(low[0]); x <= pixel(high[0]); ++x)
-                if (covers(corners, place(x), place(y))) covered_[static_cast<std::size_t>(y * width + x)] = true;
+                if (covers(corners, place(x), place(y))) covered_[square(x, y)] = true;
     }
     double area() const { return static_cast<double>(std::ranges::count(covered_, true)) * step * step; }
     /// Counts where the outline goes out again, by more than 4 mm.
@@ -112,7 +112,7 @@ class Shadow {
         std::array<double, directions> radius{};
         for (int y = 0; y < width; ++y)
             for (int x = 0; x < width; ++x) {
-                if (!covered_[static_cast<std::size_t>(y * width + x)]) continue;
+                if (!covered_[square(x, y)]) continue;
                 const double turn = std::atan2(place(y), place(x)) / (2 * std::numbers::pi) + 0.5;
                 double& farthest = radius[static_cast<std::size_t>(std::min(int(turn * directions), directions - 1))];
                 farthest = std::max(farthest, std::hypot(place(x), place(y)));
@@ -134,10 +134,11 @@ class Shadow {
     }
 
   private:
-    static constexpr int width = 640;
+    static constexpr int width = 640, middle = width / 2;
     static constexpr double step = 0.0005;  // m
-    static int pixel(double at) { return std::clamp(int(std::floor(at / step)) + width / 2, 0, width - 1); }
-    static double place(int pixel) { return (pixel - width / 2 + 0.5) * step; }
+    static int pixel(double at) { return std::clamp(int(std::floor(at / step)) + middle, 0, width - 1); }
+    static double place(int pixel) { return (pixel - middle + 0.5) * step; }
+    static std::size_t square(int x, int y) { return std::size_t(y) * width + std::size_t(x); }
     static bool covers(const std::array<Vec3, 3>& corners, double x, double z) {
         bool left = true, right = true;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -184,7 +185,7 @@ Draped drape(const BenchRequest& request, const Fabric& fabric, std::uint32_t pa
         shadow.add({positions[corners[k]], positions[corners[k + 1]], positions[corners[k + 2]]});
     const double disc = std::numbers::pi * disc_radius * disc_radius,
                  cell = std::pow(2 * cloth_radius / (particles - 1), 2);
-    const double cloth = static_cast<double>(corners.size() / 6) * cell;
+    const double cloth = static_cast<double>(corners.size()) / 6 * cell;  // of six corners a cell
     return {100 * (shadow.area() - disc) / (cloth - disc), shadow.folds()};
 }
 
