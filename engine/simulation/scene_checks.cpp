@@ -7,6 +7,7 @@
 #include <set>
 
 #include "drape/scene_reader.h"
+#include "world/cloth_keys.h"
 #include "world/overlap.h"
 #include "world/start.h"
 #include "world/start_crossings.h"
@@ -38,29 +39,134 @@ bool has_factors(std::size_t count, const std::vector<float>& factors, float lea
                                std::ranges::all_of(factors, [&](float each) { return each >= least && each <= most; }));
 }
 
-/// Reports the maps of a cloth whose size does not match its grid, or whose values are out of range.
-template <class Expect>
-void check_maps(const Cloth& cloth, const std::string& at, const Expect& expect) {
-    const std::size_t cells = std::size_t{cloth.grid[0] - 1} * (cloth.grid[1] - 1),
-                      particles = std::size_t{cloth.grid[0]} * cloth.grid[1];
-    expect(has_factors(cells, cloth.cell_stiffness, 0x1p-20f, 1), at + "/cell_stiffness",
-           "a factor of at most 1, and not 0, for every cell");
-    expect(has_factors(cells, cloth.cell_density, 1, 0x1p20f), at + "/cell_density",
-           "a factor of at least 1 for every cell");
-    expect(has_factors(cells, cloth.cell_tear, 0x1p-20f, 0x1p20f), at + "/cell_tear",
-           "a factor above 0 for every cell");
-    expect(has_factors(particles, cloth.particle_friction, 0, 0x1p20f), at + "/particle_friction",
-           "a factor of at least 0 for every particle");
-    expect(has_factors(particles, cloth.particle_thickness, 0, 1), at + "/particle_thickness",
-           "a factor from 0 to 1 for every particle");
-}
-
 /// Returns whether the load at which a cloth's springs tear is one that they can reach.
 bool bears(const Cloth& cloth) {
     const Tear& tear = *cloth.tear;
     const double limit = tear.strain.value_or(0) + tear.tension.value_or(0);
     return tear.strain.has_value() != tear.tension.has_value() && limit > 0 && std::isfinite(limit) &&
            !cloth.stiffness.rigid && cloth.stiffness.stretch.least() > 0;
+}
+
+bool is_positive(double x) { return x > 0 && std::isfinite(x); }
+bool is_not_negative(double x) { return x >= 0 && std::isfinite(x); }
+bool is_finite(const Vec3& vector) {
+    return std::ranges::all_of(vector, [](double x) { return std::isfinite(x); });
+}
+
+bool can_be(const Stiffness& stiffness) {
+    const WarpWeft& stretch = stiffness.stretch;
+    const Rigidity& bend = stiffness.bend;
+    const std::array numbers{stretch.warp, stretch.weft, stiffness.shear, bend.warp, bend.weft, bend.twist};
+    return std::ranges::all_of(numbers, is_not_negative) && stiffness.compression >= 0 && stiffness.compression <= 1;
+}
+
+bool can_be(const SelfCollision& contact) {
+    return is_positive(contact.thickness.value_or(1)) && is_not_negative(contact.friction.value_or(0));
+}
+
+bool can_change(const Cloth& cloth) {
+    return cloth.stiffness_keys.empty() || (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension));
+}
+
+bool can_be(const Placement& placement) {
+    return is_finite(placement.origin) && is_finite(placement.u) && is_finite(placement.v) &&
+           std::ranges::all_of(placement.scale, is_positive) && is_not_negative(placement.jitter);
+}
+
+/// What is expected of a cloth's member, where it is not so, and the end of the member's pointer.
+struct Fault {
+    std::string expected, below = {};
+};
+
+Fault fault_unless(bool fits, const char* expected) { return {fits ? "" : expected}; }
+
+Fault fault_of_boxes(const Cloth& cloth, std::size_t count, const auto& box) {
+    for (std::size_t k = 0; k < count; ++k)
+        if (!is_box_of(box(k), cloth)) return {"particles of the grid", fmt::format("/{}", k)};
+    return {};
+}
+
+/// Factors of every cell or particle, between two bounds.
+struct Map {
+    ClothKey key;
+    std::vector<float> Cloth::*factors;
+    bool of_cells;
+    float least, most;
+    const char* expected;
+};
+constexpr Map maps[] = {
+    {ClothKey::cell_stiffness, &Cloth::cell_stiffness, true, 0x1p-20f, 1,
+     "a factor of at most 1, and not 0, for every cell"},
+    {ClothKey::cell_density, &Cloth::cell_density, true, 1, 0x1p20f, "a factor of at least 1 for every cell"},
+    {ClothKey::cell_tear, &Cloth::cell_tear, true, 0x1p-20f, 0x1p20f, "a factor above 0 for every cell"},
+    {ClothKey::particle_friction, &Cloth::particle_friction, false, 0, 0x1p20f,
+     "a factor of at least 0 for every particle"},
+    {ClothKey::particle_thickness, &Cloth::particle_thickness, false, 0, 1, "a factor from 0 to 1 for every particle"}};
+
+Fault fault_of_map(const Cloth& cloth, ClothKey key) {
+    const Map& map = *std::ranges::find(maps, key, &Map::key);
+    const std::uint32_t less = map.of_cells ? 1 : 0;
+    const std::size_t count = std::size_t{cloth.grid[0] - less} * (cloth.grid[1] - less);
+    return fault_unless(has_factors(count, cloth.*map.factors, map.least, map.most), map.expected);
+}
+
+/// Judges one member of a cloth with a right grid. A new member of Cloth does not compile until it is judged here.
+Fault fault_of(const Cloth& cloth, ClothKey key) {
+    switch (key) {
+        case ClothKey::name:
+            return fault_unless(!cloth.name.empty(), "a name");
+        case ClothKey::size:
+            return fault_unless(std::ranges::all_of(cloth.size, is_positive), "lengths above 0");
+        case ClothKey::placement:
+            return fault_unless(can_be(cloth.placement), "finite lengths");
+        case ClothKey::start:
+            return {cloth.start.empty() ? "" : start_fault(cloth)};
+        case ClothKey::areal_density:
+            return fault_unless(is_positive(cloth.areal_density), "a mass above 0");
+        case ClothKey::stiffness:
+            return fault_unless(can_be(cloth.stiffness),
+                                "finite numbers of at least 0, and a compression of at most 1");
+        case ClothKey::stiffness_keys:
+            return fault_unless(are_keys(cloth.stiffness_keys) && can_change(cloth),
+                                "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor "
+                                "torn by a tension");
+        case ClothKey::damping:
+            return fault_unless(is_not_negative(cloth.damping), "a rate of at least 0");
+        case ClothKey::friction:
+            return fault_unless(is_not_negative(cloth.friction), "a coefficient of at least 0");
+        case ClothKey::thickness:
+            return fault_unless(is_not_negative(cloth.thickness), "a length of at least 0");
+        case ClothKey::self_collision:
+            return fault_unless(!cloth.self_collision || can_be(*cloth.self_collision),
+                                "a thickness above 0 and a coefficient of at least 0");
+        case ClothKey::velocity:
+            return fault_unless(is_finite(cloth.velocity), "a finite velocity");
+        case ClothKey::velocities:
+            return {cloth.velocities.empty() ? "" : velocities_fault(cloth)};
+        case ClothKey::holes: {
+            const Fault fault =
+                fault_of_boxes(cloth, cloth.holes.size(), [&](std::size_t k) { return cloth.holes[k]; });
+            return fault.expected.empty() ? fault_unless(leaves_a_cell(cloth), "holes that leave a cell") : fault;
+        }
+        case ClothKey::cell_stiffness:
+        case ClothKey::cell_density:
+        case ClothKey::cell_tear:
+        case ClothKey::particle_friction:
+        case ClothKey::particle_thickness:
+            return fault_of_map(cloth, key);
+        case ClothKey::tear:
+            return fault_unless(!cloth.tear || bears(cloth),
+                                "either a strain or a tension above 0, of springs that are not rigid");
+        case ClothKey::pins:
+            return fault_of_boxes(cloth, cloth.pins.size(), [&](std::size_t k) { return cloth.pins[k].particles; });
+        // The grid was judged before; of the others every value is right.
+        case ClothKey::grid:
+        case ClothKey::rest:
+        case ClothKey::contact:
+        case ClothKey::appearance:
+            return {};
+    }
+    return {};
 }
 
 }  // namespace
@@ -75,43 +181,24 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     expect(!scene.cloths.empty(), "/cloths", "a cloth");
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
         const Cloth& cloth = scene.cloths[i];
-        const std::string at = fmt::format("/cloths/{}", i);
         particle_count += std::uint64_t{cloth.grid[0]} * cloth.grid[1];
-        expect(std::min(cloth.grid[0], cloth.grid[1]) >= 2 && particle_count <= scene_particle_limit, at + "/grid",
-               "at least 2 x 2 particles and no more than a scene may have");
-        expect(names.insert(cloth.name).second && !cloth.name.empty(), at + "/name", "a name no other cloth has");
-        for (const double side : cloth.size) expect(side > 0 && std::isfinite(side), at + "/size", "lengths above 0");
-        expect(cloth.areal_density > 0 && std::isfinite(cloth.areal_density), at + "/areal_density", "a mass above 0");
-        for (std::size_t pin = 0; pin < cloth.pins.size(); ++pin)
-            expect(is_box_of(cloth.pins[pin].particles, cloth), fmt::format("{}/pins/{}", at, pin),
-                   "particles of the grid");
-        for (std::size_t hole = 0; hole < cloth.holes.size(); ++hole)
-            expect(is_box_of(cloth.holes[hole], cloth), fmt::format("{}/holes/{}", at, hole), "particles of the grid");
+        expect(std::min(cloth.grid[0], cloth.grid[1]) >= 2 && particle_count <= scene_particle_limit,
+               fmt::format("/cloths/{}/grid", i), "at least 2 x 2 particles and no more than a scene may have");
+        expect(names.insert(cloth.name).second, fmt::format("/cloths/{}/name", i), "a name no other cloth has");
     }
     expect(are_keys(scene.gravity_keys), "/gravity_keys", "numbers at times that increase");
     expect(are_keys(scene.wind.keys), "/wind/keys", "numbers at times that increase");
-    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i) {
-        const Cloth& cloth = scene.cloths[i];
-        const std::string at = fmt::format("/cloths/{}", i);
-        if (!cloth.start.empty()) expect(start_fault(cloth).empty(), at + "/start", start_fault(cloth).c_str());
-        if (!cloth.velocities.empty())
-            expect(velocities_fault(cloth).empty(), at + "/velocities", velocities_fault(cloth).c_str());
-        expect(
-            are_keys(cloth.stiffness_keys) &&
-                (cloth.stiffness_keys.empty() || (!cloth.stiffness.rigid && !(cloth.tear && cloth.tear->tension))),
-            at + "/stiffness_keys",
-            "factors from 0.001 to 1 at times that increase, of springs that are neither rigid nor torn by a tension");
-        check_maps(cloth, at, expect);
-        expect(!cloth.tear || bears(cloth), at + "/tear",
-               "either a strain or a tension above 0, of springs that are not rigid");
-    }
+    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i)
+        for (const ClothKey key : cloth_keys) {
+            const Fault fault = fault_of(scene.cloths[i], key);
+            expect(fault.expected.empty(), fmt::format("/cloths/{}{}{}", i, pointer_of(key), fault.below),
+                   fault.expected.c_str());
+        }
     expect(scene.time.frame_count > 0 && scene.time.fps > 0 && std::isfinite(scene.time.fps), "/time", "frames");
     expect(scene.solver.substeps > 0 && scene.solver.iterations > 0, "/solver", "at least one substep and iteration");
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
            "pixels, of 1 or 4 samples");
     expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
-    for (std::size_t i = 0; i < scene.cloths.size() && result.errors.empty(); ++i)
-        expect(leaves_a_cell(scene.cloths[i]), fmt::format("/cloths/{}/holes", i), "holes that leave a cell");
     if (result.errors.empty() && scene.overlap == Overlap::refuse)
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),

@@ -238,17 +238,31 @@ TEST(SimulationErrors, AreTyped) {
     }
 }
 
+/// Expects that a scene with one change is refused for what the pointer names.
+void refused(const char* pointer, void (*change)(SceneDescription&)) {
+    SceneDescription scene = cut_sheet();
+    change(scene);
+    try {
+        const Simulation simulation(scene, {}, library_device());
+        ADD_FAILURE() << pointer;
+    } catch (const SceneFailure& failure) {
+        EXPECT_EQ(failure.result().errors.at(0).pointer, pointer);
+    }
+}
+
+TEST(SimulationErrors, NumbersOfAClothBuiltInCodeAreChecked) {
+    refused("/cloths/0/placement", [](SceneDescription& scene) { scene.cloths[0].placement.u = {NAN, 0, 0}; });
+    refused("/cloths/0/stiffness", [](SceneDescription& scene) { scene.cloths[0].stiffness.bend = -1; });
+    refused("/cloths/0/stiffness", [](SceneDescription& scene) { scene.cloths[0].stiffness.stretch.weft = INFINITY; });
+    refused("/cloths/0/damping", [](SceneDescription& scene) { scene.cloths[0].damping = -1; });
+    refused("/cloths/0/friction", [](SceneDescription& scene) { scene.cloths[0].friction = NAN; });
+    refused("/cloths/0/thickness", [](SceneDescription& scene) { scene.cloths[0].thickness = -0.01; });
+    refused("/cloths/0/self_collision",
+            [](SceneDescription& scene) { scene.cloths[0].self_collision = {.thickness = 0, .friction = {}}; });
+    refused("/cloths/0/velocity", [](SceneDescription& scene) { scene.cloths[0].velocity = {0, INFINITY, 0}; });
+}
+
 TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
-    const auto refused = [](const char* pointer, void (*change)(SceneDescription&)) {
-        SceneDescription scene = cut_sheet();
-        change(scene);
-        try {
-            const Simulation simulation(scene, {}, library_device());
-            ADD_FAILURE() << pointer;
-        } catch (const SceneFailure& failure) {
-            EXPECT_EQ(failure.result().errors.at(0).pointer, pointer);
-        }
-    };
     refused("/cloths", [](SceneDescription& scene) { scene.cloths.clear(); });
     refused("/cloths/0/grid", [](SceneDescription& scene) { scene.cloths[0].grid = {1, 10}; });
     refused("/cloths/0/grid", [](SceneDescription& scene) { scene.cloths[0].grid = {70000, 70000}; });
@@ -264,10 +278,10 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
         scene.cloths[0].start.resize(std::size_t{scene.cloths[0].grid[0]} * scene.cloths[0].grid[1]);
     });
     refused("/cloths/0/velocities", [](SceneDescription& scene) { scene.cloths[0].velocities.resize(7); });
-    refused("/cloths/0/cell_stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
-    refused("/cloths/0/cell_tear", [](SceneDescription& scene) { scene.cloths[0].cell_tear = {1, 0}; });
-    refused("/cloths/0/particle_friction", [](SceneDescription& scene) { scene.cloths[0].particle_friction = {1}; });
-    refused("/cloths/0/particle_thickness", [](SceneDescription& scene) {
+    refused("/cloths/0/maps/stiffness", [](SceneDescription& scene) { scene.cloths[0].cell_stiffness = {1}; });
+    refused("/cloths/0/maps/tear", [](SceneDescription& scene) { scene.cloths[0].cell_tear = {1, 0}; });
+    refused("/cloths/0/maps/friction", [](SceneDescription& scene) { scene.cloths[0].particle_friction = {1}; });
+    refused("/cloths/0/maps/thickness", [](SceneDescription& scene) {
         const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
         scene.cloths[0].particle_thickness.assign(std::size_t{grid[0]} * grid[1], 1.5f);
     });
@@ -278,7 +292,7 @@ TEST(SimulationErrors, ASceneBuiltInCodeIsChecked) {
         scene.cloths[0].stiffness.rigid = true;
         scene.cloths[0].tear = Tear{.strain = 0.1, .tension = {}};
     });
-    refused("/cloths/0/cell_density", [](SceneDescription& scene) {
+    refused("/cloths/0/maps/density", [](SceneDescription& scene) {
         const std::array<std::uint32_t, 2>& grid = scene.cloths[0].grid;
         scene.cloths[0].cell_density.assign(std::size_t{grid[0] - 1} * (grid[1] - 1), 0.5f);
     });
