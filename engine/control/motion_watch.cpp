@@ -59,7 +59,7 @@ std::optional<std::string> MotionWatch::note() const {
     if (!parting_ || parting_->stands_on_a_point()) return std::nullopt;
     return fmt::format(
         "the motion is sensitive from frame {} on: runs that are equally exact had parted by {:.2g} mm there, of the "
-        "{:.2g} mm that are its error by the estimate, as where cloth crumples; stretch, contact and means hold",
+        "{:.2g} mm that are its error by the estimate, as where cloth crumples; stretch and contact keep their limits",
         parting_->frame, 1000 * parting_->parted, 1000 * parting_->error);
 }
 

@@ -52,6 +52,7 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
         probes_.interval = 1;
         probes_.until = 0;
         return_to_calm();
+        calm_.came_back = false;
     }
     const std::size_t wanted = eventful ? std::min(rung_ + 2, ladder_.rungs.size() - 1) : rung_;
     const bool probes = probes_.until == 0 && room >= 2 && !ladder_.resolves;
@@ -179,10 +180,12 @@ void SubstepControl::accumulated(const Trend& trend) {
     trend_ = trend;
 }
 
-/// Takes the substeps that a swing needs at least, and waits before it goes below them.
+/// Takes the substeps that a swing needs at least. Every change of the substeps shakes cloth at rest a little, so it
+/// goes below them once between two events.
 void SubstepControl::return_to_calm() {
+    const bool came_back = calm_.came_back || rung_ < ladder_.calm;
     rung_ = std::max(rung_, ladder_.calm);
-    calm_ = {};
+    calm_ = {.came_back = came_back};
 }
 
 /// Goes below the substeps that a swing needs, a rung at a time, while the companion shows that the error stays far
@@ -193,7 +196,7 @@ void SubstepControl::follow_calm(const Trend& trend) {
     calm_.growth = std::max(trend.growth, calm_.growth * calm_kept);
     const double error = std::max({stretch, trend.share, calm_.growth});
     if (error > comfort) return_to_calm();
-    const bool shown = calm_.frames >= calm_after * probe_length_;
+    const bool shown = calm_.frames >= calm_after * probe_length_ && !calm_.came_back;
     if (!shown || rung_ > ladder_.calm || rung_ == ladder_.lowest) return;
     const double longer = static_cast<double>(ladder_.rungs[rung_]) / ladder_.rungs[rung_ - 1];
     if (error * longer * longer < calm_comfort) --rung_;

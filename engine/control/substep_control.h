@@ -88,7 +88,7 @@ class SubstepControl {
         archive(rung_, slack_, segment_.substeps, segment_.frame_count, segment_.probes, probes_.interval,
                 probes_.until, probes_.order, probes_.last.substeps, probes_.last.motion, easing_.since_fewer,
                 easing_.patience, easing_.easy, contact_.rung, contact_.until_lag, trend_.share, trend_.growth,
-                calm_.frames, calm_.stretch, calm_.growth);
+                calm_.frames, calm_.stretch, calm_.growth, calm_.came_back);
         return std::max(rung_, contact_.rung) < ladder_.rungs.size() && rung_ >= ladder_.lowest;
     }
 
@@ -166,6 +166,7 @@ class SubstepControl {
         std::uint32_t frames = 0;  ///< since the start, an event, or an error that was too large
         double stretch = 0;        ///< the worst since the last comparison
         double growth = 0;         ///< of the error, held for a while
+        bool came_back = false;    ///< since an event, the substeps went below those of a swing and had to come back
     } calm_;
 };
 
