@@ -27,8 +27,10 @@ struct SelfBox {
 
 /// So many times the impulses of a substep's contacts are found from each other.
 const int self_iterations = 3;
-/// Sums of impulses by place: those that contacts begin with, those after each round, and what lacks of thicknesses.
-const int self_sum_count = self_iterations + 2, self_sum_of_thickness = self_iterations + 1;
+/// Sums of impulses by place: those that contacts begin with, those after each round, what lacks of thicknesses, and
+/// couples of pairs.
+const int self_sum_count = self_iterations + 3, self_sum_of_thickness = self_iterations + 1,
+          self_sum_of_couples = self_iterations + 2;
 /// In so many rounds motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
 

@@ -115,7 +115,8 @@ void ContactMirror::upload(const Step& step, const Names& used, const TwinContac
     if (uses(ContactField::crossings) && step.kind == StepKind::self_apart)
         put(ContactField::crossings, std::as_bytes(std::span(twin.crossings)));
     if (uses(ContactField::touching) && step.kind == StepKind::self_contact) upload_touching(twin);
-    if (uses(ContactField::sums) && (step.kind == StepKind::self_contact || step.kind == StepKind::self_push))
+    if (uses(ContactField::sums) && (step.kind == StepKind::self_contact || step.kind == StepKind::self_push ||
+                                     step.kind == StepKind::self_couples))
         upload_sums(twin);
     if (step.kind == StepKind::self_limit || step.kind == StepKind::self_return) upload_shares(step, twin);
 }

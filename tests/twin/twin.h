@@ -77,6 +77,9 @@ struct TwinSums {
     glsl::uint weight = 0;
 };
 
+/// Returns what a sum of impulses, or of couples, came to; `largest` as in SelfCloth.
+glsl::vec3 summed(const TwinSums& sums, std::size_t which, float largest);
+
 /// The passes of contact hand each other these lists, by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);

@@ -124,6 +124,8 @@ class ContactStep {
     void add_triangles(ivec2 particle, ivec2 cell, vec3 axis);
     void add_pair(const TwinPair& pair, vec3 axis);
     void touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept);
+    void add_parts(std::size_t which, uint corner, const SelfParts& parts);
+    void add_couple(const TwinPair& pair, vec4 weights, vec3 impulse);
     void add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse);
     vec3 impulse_at(std::size_t round, uint place) const;
     vec3 motion_in_round(uint place, float mass) const;
@@ -309,28 +311,31 @@ void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction
     add_impulse(0, pair.edges, all, gap.weights, begun);
 }
 
+void ContactStep::add_parts(std::size_t which, uint corner, const SelfParts& parts) {
+    const auto units = [](ivec2 both) { return std::int64_t{both.x} + std::int64_t{both.y} * (1 << 20); };
+    auto& sum = contact_.sums[place(corner)].units[which];
+    sum[0] += units(parts.x);
+    sum[1] += units(parts.y);
+    sum[2] += units(parts.z);
+}
+
 void ContactStep::add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse) {
     const SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(cloth_of(all.x).largest));
-    const auto units = [](ivec2 parts) { return std::int64_t{parts.x} + std::int64_t{parts.y} * (1 << 20); };
-    const auto add = [&](uint corner, const SelfParts& parts) {
-        auto& sum = contact_.sums[place(corner)].units[round];
-        sum[0] += units(parts.x);
-        sum[1] += units(parts.y);
-        sum[2] += units(parts.z);
-    };
-    add(all.x, shares.a);
-    add(all.y, shares.b);
-    add(all.z, shares.c);
-    add(all.w, shares.d);
+    add_parts(round, all.x, shares.a);
+    add_parts(round, all.y, shares.b);
+    add_parts(round, all.z, shares.c);
+    add_parts(round, all.w, shares.d);
+}
+
+void ContactStep::add_couple(const TwinPair& pair, vec4 weights, vec3 impulse) {
+    const float largest = cloth_of(pair.corners.x).largest;
+    const vec3 half_couple = self_half_couple(weights, self_relative(positions(pair)), impulse, largest);
+    const SelfParts parts = self_parts_of(half_couple, 1.0f, self_units_per_impulse(largest));
+    for (const uint corner : {pair.corners.x, pair.corners.w}) add_parts(self_sum_of_couples, corner, parts);
 }
 
 vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
-    const auto number = [](std::int64_t units) {
-        const auto bits = static_cast<std::uint64_t>(units);
-        return self_number({static_cast<uint>(bits), static_cast<uint>(bits >> 32)});
-    };
-    const auto& sum = contact_.sums[place].units[round];
-    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, cloth_at(place).largest);
+    return summed(contact_.sums[place], round, cloth_at(place).largest);
 }
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
@@ -363,8 +368,10 @@ void ContactStep::work(TwinTouch& pair) {
     if (round == 0)
         add_impulse(self_sum_of_thickness, pair.edges, all, touch.weights,
                     xyz(touch.normal) * self_leading(touch, yields));
-    if (push_.round == self_iterations - 1 && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f))
-        contact_.borne[{all.x, all.y, all.z, all.w, pair.edges}] = self_borne_force(impulse, push_.step);
+    const bool presses = impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f;
+    if (push_.round != self_iterations - 1 || !presses) return;
+    add_couple({pair.edges, all}, touch.weights, impulse);
+    contact_.borne[{all.x, all.y, all.z, all.w, pair.edges}] = self_borne_force(impulse, push_.step);
 }
 
 void ContactStep::contact() {
@@ -463,15 +470,6 @@ void ContactStep::cut_short(std::size_t cloth) {
 }
 
 }  // namespace
-
-TwinContact::TwinContact(const SelfContact& contact)
-    : model(&contact),
-      owners(contact.owners()),
-      positions(owners.size()),
-      displacements(owners.size()),
-      last_motions(owners.size()),
-      supports(owners.size()),
-      before(owners.size()) {}
 
 void cut_short(TwinContact& contact, std::size_t cloth) {
     ContactStep step(contact, contact.model->push);
