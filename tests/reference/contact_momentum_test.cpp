@@ -184,9 +184,10 @@ TEST_P(ClosedSystems, KeepTheirMomentumByStatedVelocitiesAndGainNoEnergy) {
         EXPECT_GE(worst.struck, 9);
         EXPECT_LT(worst.linear, 1e-4);
         EXPECT_LT(worst.angular, relaxes ? 0.1 / substeps : substeps < 16 ? 0.03 / substeps : 1e-3);
-        if (substeps >= 16) {
-            EXPECT_LT(worst.energy, 1.005);
-        }
+        // Contact moves what touches after the springs were solved. At few substeps that stretches them for a moment,
+        // but for those that micro-steps soften.
+        const bool follows = GetParam() == SolverMethod::explicit_steps || substeps >= 16;
+        EXPECT_LT(worst.energy, follows ? 1.005 : 1 + 7.0 / substeps);
     }
 }
 
