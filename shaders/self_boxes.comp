@@ -22,6 +22,8 @@ layout(set = 0, binding = 9, rgba32f) uniform readonly imageBuffer kept;  // box
 layout(set = 0, binding = 10, std430) buffer Sizes { uvec4 sizes[]; };
 layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 11, std430) writeonly buffer Crossings { SelfCrossings crossings[]; };
+layout(set = 0, binding = 12, std430) writeonly buffer ClothShares { uint cloth_shares[]; };
+void reset_share(int word) { cloth_shares[word] = word % self_cloth_words == 0 ? 0u : floatBitsToUint(1.0f); }
 void forget_crossings(int k) { crossings[k] = SelfCrossings(0, 0); }
 
 #include "include/self_carried.h"
@@ -94,6 +96,7 @@ void main() {
     first_travel = record[0].travel.xyz;
     int count = push.grid.x * push.grid.y;
     FOR_EVERY(place, count, begin(place, count))
+    FOR_EVERY(word, cloth_count * self_cloth_words, reset_share(word))
     if (crossed) {
         FOR_EVERY(k, push.crossed_count, forget_crossings(k))
     }

@@ -1,6 +1,7 @@
 // This pass computes the impulses of the pairs that touch, from the motions under the previous round's impulses, and
 // sums them as integers, so that the order does not matter. The first round also sums the impulses that lead pairs
-// apart that lack some of their thickness; the last one records what every pair bears, for the next substep. Where it
+// apart that lack some of their thickness; the last one records what every pair bears, for the next substep, and
+// sums the couples of friction. Where it
 // `looks_back`, the pass finds instead, from none on, the impulses that the motions of the substep before would have
 // called for (docs/solvers.md, "Substeps that change").
 #version 460
@@ -28,6 +29,7 @@ layout(constant_id = 24) const bool looks_back = false;
 #include "include/self_carried.h"
 
 struct Corner {
+    vec3 at;
     vec3 motion;  // under the previous round's impulses, m
     float mass, holds;
 };
@@ -37,12 +39,13 @@ bool begins_with_none() { return looks_back && push.round == 0; }
 Corner corner_of(uint which, SelfCloth cloth) {
     ivec2 texel = self_texel(which);
     int place = place_of(texel);
-    precise float mass = imageLoad(positions, texel).w * cloth.lightness;
+    vec4 position = imageLoad(positions, texel);
+    precise float mass = position.w * cloth.lightness;
     vec3 moved = imageLoad(displacements, texel).xyz, by = vec3(0.0f, 0.0f, 0.0f);
     if (!begins_with_none()) by = self_moved_by(impulse_of(sum_of(push.round, place), cloth.largest), mass);
     Support support = Support(imageLoad(supports, 2 * place), imageLoad(supports, 2 * place + 1));
     vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried_at(place));
-    return Corner(motion, mass, self_holds(sum_of(0, place).z_weight.z));
+    return Corner(position.xyz, motion, mass, self_holds(sum_of(0, place).z_weight.z));
 }
 
 void bear(bool edges, SelfTouch touch) {
@@ -69,7 +72,10 @@ void work(bool edges, int entry) {
     float leads = push.round == 0 ? self_leading(touch, yields) : 0.0f;
     precise vec3 leading = touch.normal.xyz * leads;
     if (leads > 0.0f) add_impulse(self_sum_of_thickness, edges, touch.corners, touch.weights, leading, one.largest);
-    if (push.round == self_iterations - 1 && presses) bear(edges, touch);
+    if (push.round != self_iterations - 1 || !presses) return;
+    SelfCorners x = self_relative(SelfCorners(a.at, b.at, c.at, d.at));
+    add_couple(touch.corners, self_half_couple(touch.weights, x, touch.impulse.xyz, one.largest), one.largest);
+    bear(edges, touch);
 }
 
 void main() {

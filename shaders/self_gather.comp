@@ -1,13 +1,15 @@
 // This pass copies a cloth's particles to the sheet, as they are at this point of a substep. Where `masked`, an image
 // says which triangles exist (holes, cuts). Where `supported`, it also copies the surfaces on which they lie, and in
-// the substep that `ends_frame` the motions of the one before. The pass of a member's last cloth also begins the
+// the substep that `ends_frame` the motions of the one before, which it frees of what was paid in advance. The pass of a member's last cloth also begins the
 // member's contact in the substep: the first workgroup computes the common motion relative to which all of its
 // particles are measured, from a few samples, or none where some particles are always held, and resets the records for
 // the passes to come.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/rotation_types.h"
 #include "shared/simulation_types.h"
 #include "include/push.h"
+#include "include/rotation.h"
 #include "include/self_contact.h"
 
 layout(local_size_x = workgroup_width) in;
@@ -28,8 +30,11 @@ layout(set = 0, binding = 5, rgba32f) uniform image2D support;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D support_grip;
 layout(set = 0, binding = 7, std430) writeonly buffer Supports { vec4 supports[]; };
 layout(constant_id = 26) const bool ends_frame = false;
-layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacement_before;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D displacement_before_in;
 VECTOR_KEPT(12, last_motions);
+layout(constant_id = 28) const bool pays_ahead = false;
+VECTOR_OUT(13, displacement_before_out);
+layout(set = 0, binding = 14, rgba32f) uniform readonly image2D paid;
 layout(set = 0, binding = 8, std430) readonly buffer Cloths { SelfCloth cloths[]; };
 layout(set = 0, binding = 9, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer Sizes { uvec4 sizes[]; };
@@ -54,12 +59,26 @@ uint owned(ivec2 texel) {
     return bits;
 }
 
+/// Lays the motion of the substep before. Where that `pays_ahead`, it ended with a turn that answers this one's contact.
+void lay_last_motion(ivec2 texel, ivec2 laid) {
+    vec4 motion = LOAD(displacement_before_in, texel);
+    if (pays_ahead) {
+        vec3 turn = imageLoad(paid, ivec2(paid_turn, cloth_place())).xyz;
+        vec3 centre = imageLoad(paid, ivec2(paid_turn + 1, cloth_place())).xyz;
+        vec4 own = LOAD(position, texel);
+        vec3 without = without_advance(motion.xyz, turn, centre, own.xyz);
+        motion = vec4(own.w > 0.0f ? without : motion.xyz, motion.w);
+        STORE_VECTOR(displacement_before_out, texel, motion);
+    }
+    STORE_IN_COLUMNS(last_motions, laid, push.sheet.x, motion);
+}
+
 void lay(ivec2 texel) {
     ivec2 laid = push.first + texel;
     STORE_IN_COLUMNS(positions, laid, push.sheet.x, LOAD(position, texel));
     vec3 moved = LOAD(displacement, texel).xyz;
     STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
-    if (ends_frame) STORE_IN_COLUMNS(last_motions, laid, push.sheet.x, LOAD(displacement_before, texel));
+    if (ends_frame) lay_last_motion(texel, laid);
     if (!supported) return;
     // The mark is reset, since this substep's last collision decides anew where a particle lies.
     vec4 plane = LOAD(support, texel);

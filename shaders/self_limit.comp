@@ -2,7 +2,8 @@
 // side of the plane between the two. A particle keeps the smallest share over all its pairs; positive floats are
 // ordered as their bits are. In the first round no particle has moved yet. Each later round begins with the motions
 // that the previous round found to cross nothing: the planes have then moved too, so that layers that move together do
-// not hold each other back. The pass runs only if the previous round cut a motion short.
+// not hold each other back. The pass runs only if the previous round cut a motion short. A free cloth of which
+// the first round leaves a particle far behind for another cloth's sake makes the least share of any of its particles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -19,15 +20,18 @@ layout(set = 0, binding = 6, rgba32f) uniform readonly imageBuffer before;
 layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
+layout(set = 0, binding = 9, std430) buffer ClothShares { uint cloth_shares[]; };
+#include "include/self_shares.h"
 
 #include "include/self_carried.h"
 
 bool cuts_short = false;
 
 struct Corner {
-    int place;
+    int place, owner;
     vec3 x;
     bool held;
+    vec3 motion;         // m
     float along, share;  // its motion along the normal, m, and the share of it that it already makes
 };
 
@@ -42,16 +46,26 @@ Corner corner_of(uint which) {
     ivec2 texel = self_texel(which);
     int place = place_of(texel);
     vec4 x = imageLoad(positions, texel);
-    int last = (push.round - 1) * push.grid.x * push.grid.y + place;
-    float share = push.round > 0 ? uintBitsToFloat(shares[max(last, 0)]) : 0.0f;
-    return Corner(place, x.xyz, !(x.w > 0.0f), 0.0f, share);
+    int last = (push.round - 1) * push.grid.x * push.grid.y + place, owner = owner_of(place);
+    bool held = !(x.w > 0.0f);
+    float share = 0.0f;
+    if (push.round > 0) {
+        share = uintBitsToFloat(shares[last]);
+        share = held ? share : share_made(share, owner, push.round - 1);
+    }
+    return Corner(place, owner, x.xyz, held, vec3(0.0f), 0.0f, share);
 }
 
-void bound(SelfGap gap, Corner corner, float middle, float end, float side, float least) {
-    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, least);
+void bound(SelfGap gap, Corner corner, float middle, float end, float side, SelfCloth cloth, bool apart) {
+    float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, cloth.least);
     if (share < 1.0f) {
         atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
         cuts_short = true;
+        if (corner.held) return;
+        int own = corner.owner * self_cloth_words;
+        atomicMin(cloth_shares[own + 1 + push.round], floatBitsToUint(share));
+        bool alone = push.round == 0 && apart && cloth.held == 0;
+        if (alone && self_stays_behind(corner.motion, share, cloth.spacing)) atomicOr(cloth_shares[own], 1u);
     }
 }
 
@@ -60,17 +74,22 @@ void bound_pair(bool edges, uvec4 pair) {
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
     SelfGap gap = self_gap_squared(edges, SelfCorners(a.x, b.x, c.x, d.x));
     if (push.round == 0 && self_touch(gap)) atomicAdd(record[member_at(a.place)].unproved, 1u);
-    a.along = ordered_dot(gap.normal, motion(a, pair.x, one.thickness));
-    b.along = ordered_dot(gap.normal, motion(b, pair.y, edges ? one.thickness : other.thickness));
-    c.along = ordered_dot(gap.normal, motion(c, pair.z, other.thickness));
-    d.along = ordered_dot(gap.normal, motion(d, pair.w, other.thickness));
+    a.motion = motion(a, pair.x, one.thickness);
+    b.motion = motion(b, pair.y, edges ? one.thickness : other.thickness);
+    c.motion = motion(c, pair.z, other.thickness);
+    d.motion = motion(d, pair.w, other.thickness);
+    a.along = ordered_dot(gap.normal, a.motion);
+    b.along = ordered_dot(gap.normal, b.motion);
+    c.along = ordered_dot(gap.normal, c.motion);
+    d.along = ordered_dot(gap.normal, d.motion);
     vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     vec4 wants = self_wants(vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     float middle = self_middle(edges, gap.apart, end, wants);
-    bound(gap, a, middle, end.x, 1.0f, one.least);
-    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f, one.least);
-    bound(gap, c, middle, end.z, -1.0f, one.least);
-    bound(gap, d, middle, end.w, -1.0f, one.least);
+    bool apart = !self_same_cloth(one, other);
+    bound(gap, a, middle, end.x, 1.0f, one, apart);
+    bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f, edges ? one : other, apart);
+    bound(gap, c, middle, end.z, -1.0f, other, apart);
+    bound(gap, d, middle, end.w, -1.0f, other, apart);
 }
 
 void main() {

@@ -35,8 +35,12 @@ layout(set = 0, binding = 12, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]; };
 layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
+layout(set = 0, binding = 16, std430) readonly buffer Owners { int owners[]; };
+layout(set = 0, binding = 17, std430) readonly buffer ClothShares { uint cloth_shares[]; };
+#include "include/self_shares.h"
 
-vec3 carried;  // the member's, read before anything has branched (docs/devices.md)
+vec3 carried;  // the member's, and the cloth; both are read before anything has branched (docs/devices.md)
+int owner;
 
 struct Motion {
     bool held, cut, pushed, led;
@@ -54,6 +58,7 @@ Motion motion_of(ivec2 texel) {
     vec4 was = imageLoad(before, place);
     vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
     vec3 bounded = held ? moved : allowed;
+    if (!held) share = share_made(share, owner, self_rounds - 1);
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
     bool pushed = was.w == self_pushed || was.w == self_pushed_and_led, led = was.w >= self_led_out;
     return Motion(held, share < 1.0f || changed, pushed, led, moved, bounded, share);
@@ -147,6 +152,7 @@ void count_own(int member) {
 
 void main() {
     carried = record[push.member].carried.xyz;
+    owner = max(owners[push.first.y * push.sheet.x + push.first.x], 0);
     end_all();
     if (unproved > 0u) atomicAdd(record[push.member].unproved, unproved);
     if (truncated > 0u) atomicAdd(record[push.member].truncated, truncated);

@@ -23,6 +23,7 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D wind_force;
 
 #define RECORD TorqueSum
 #include "include/workgroup_reduction.h"
+#include "include/stored_torque.h"
 
 vec3 start, moved;  // position and displacement of the particle `about`, m
 bool second_order;  // all three are read before anything has branched (docs/devices.md)
@@ -52,9 +53,5 @@ void main() {
         } while (place < end);
     sum = joined_over_workgroup(sum);
     if (gl_LocalInvocationIndex != 0u) return;
-    int row = int(cloth_place()) * push.sum_count + group;
-    imageStore(torques, ivec2(0, row), sum.moment);
-    imageStore(torques, ivec2(1, row), sum.impulse);
-    imageStore(torques, ivec2(2, row), sum.torque);
-    imageStore(torques, ivec2(3, row), sum.products);
+    store_sum(group, sum);
 }

@@ -39,6 +39,8 @@ bool keeps_before(Context c) {
     return second_order(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
 }
 bool rotates(Context c) { return !c.cloth.scheme.ended.empty(); }
+bool turns_in_contact(Context c) { return c.model.self_contact && c.cloth.turn; }
+bool sums_torques(Context c) { return rotates(c) || turns_in_contact(c); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }
 bool tethered(Context c) { return !c.cloth.tethers.empty(); }
 bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.colliders.empty(); }
@@ -114,7 +116,9 @@ std::vector<FieldRow> motion_rows() {
         {Field::statistics_reference, "statistics reference", image, vector, constant, judged, one, reference},
         {Field::line_control, "line control", image, integer, state, second_order, control_texels},
         {Field::line_control_spare, "line control spare", image, integer, frame, second_order, control_texels},
-        {Field::torques, "torques", image, vector, frame, rotates, torque_list},
+        {Field::torques, "torques", image, vector, frame, sums_torques, torque_list},
+        {Field::paid, "paid", image, vector, frame, turns_in_contact,
+         [](Context) { return FieldExtent{glsl::paid_texels}; }},
         {Field::angular_error, "angular error", image, vector, state, rotates, one},
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},

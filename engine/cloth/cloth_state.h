@@ -37,6 +37,7 @@ enum class Field : std::uint8_t {
     line_control,              ///< LineControl (shaders/include/bdf2.h), an integer per texel
     line_control_spare,        ///< that of every other substep
     torques,                   ///< within a substep: TorqueSum of each workgroup (shaders/torque.comp)
+    paid,                      ///< what a substep of contact pays in advance (shared/rotation_types.h)
     angular_error,             ///< xyz: angular momentum that the frame's substeps took back (Rotation::taken)
     wind_force,                ///< N
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched

@@ -72,6 +72,8 @@ std::vector<ContactRow> rows() {
         {led_ways, "led ways", texel_buffer, vector, device, always, places},
         {shares, "shares", buffer, integer, device, always,
          [](Context c) { return FieldExtent{c.contact.place_count() * glsl::self_rounds}; }},
+        {cloth_shares, "cloth shares", buffer, integer, device, always,
+         [](Context c) { return FieldExtent{c.contact.cloths.size() * std::uint64_t{glsl::self_cloth_words}}; }},
         {record, "record", buffer, layout_of<glsl::SelfRecord>(), device, always,
          [](Context c) { return FieldExtent{c.contact.member_count}; }},
         {sizes, "sizes", buffer, layout_of<glsl::uvec4>(), device, always,

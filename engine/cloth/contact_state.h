@@ -35,8 +35,9 @@ enum class ContactField : std::uint8_t {
     made_good,      ///< the motion that restores a missing thickness, m
     led_ways,  ///< displacements by which colliders lead particles out of overlaps, m; `before` marks these particles
     shares,    ///< by round: the bits of the share of its motion that a particle may make
-    record,    ///< a summary of the frame's contact
-    sizes,     ///< sizes of the dispatches that process lists
+    cloth_shares,  ///< self_cloth_words for each cloth
+    record,        ///< a summary of the frame's contact
+    sizes,         ///< sizes of the dispatches that process lists
 };
 inline constexpr std::size_t contact_field_count = static_cast<std::size_t>(ContactField::sizes) + 1;
 

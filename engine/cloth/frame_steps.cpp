@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "cloth/cloth_state.h"
+#include "cloth/texels.h"
+
 namespace drape {
 
 namespace {
@@ -104,6 +107,8 @@ class ContactSteps {
         if (!model_.scene.colliders.empty()) collide();
         for (int round = 0; round < glsl::self_rounds; ++round) add_one(StepKind::self_limit, round);
         add_for_cloths(StepKind::self_return);
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
+            if (model_.cloths[cloth].turn) give_back(cloth);
     }
 
   private:
@@ -121,6 +126,24 @@ class ContactSteps {
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0), is_last()});
+    }
+    /// Gives a cloth that may turn the angular momentum back that contact has made.
+    void give_back(std::size_t cloth) {
+        for (const StepKind kind : {StepKind::self_couples, StepKind::self_turn})
+            steps_.push_back({kind, cloth, substep_, 0, turn_push(cloth), is_last()});
+    }
+    glsl::ContactTurnPush turn_push(std::size_t cloth) const {
+        const ClothModel& model = model_.cloths[cloth];
+        const glsl::SelfCloth& laid = contact_.cloths[cloth];
+        return {model.grid.size(),
+                model.turn->about,
+                texel(model.turn->axis, model.turn->any ? 1.0 : 0.0),
+                laid.first,
+                contact_.push.grid,
+                laid.largest,
+                laid.lightness,
+                static_cast<int>(torque_count(model.grid)),
+                static_cast<int>(substep_ % 2)};
     }
     void collide() {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)

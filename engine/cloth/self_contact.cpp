@@ -120,6 +120,7 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     for (std::size_t k = 0; k < count; ++k) {
         const Cloth& cloth = scene.cloths[k];
         glsl::SelfCloth& constants = cloths.emplace_back(constants_of(cloth, models[k]));
+        constants.held = is_held(cloth) ? 1 : 0;
         constants.lightness =
             static_cast<float>(particle_mass(scene.cloths[0], models[0]) / particle_mass(cloth, models[k]));
         const double looks = search_margin(smaller_spacing(models[k]), constants.thickness);

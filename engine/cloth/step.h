@@ -60,15 +60,18 @@ enum class StepKind {
     self_push,
     self_limit,
     self_return,
+    self_couples,
+    self_turn,
 };
-inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_return) + 1;
+inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_turn) + 1;
 
 /// The push structure of a step whose constants depend on the method. `SpringPush::first_iteration` is set in each
 /// iteration.
 using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
-                 glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush>;
+                 glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
+                 glsl::ContactTurnPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

@@ -148,6 +148,12 @@ struct StructureOf {
         structure.sum_count = push.sum_count;
         return structure;
     }
+    StepConstants operator()(const glsl::ContactTurnPush& push) const {
+        glsl::ContactTurnPush structure{push.grid};
+        structure.sum_count = push.sum_count;
+        structure.paid = push.paid;
+        return structure;
+    }
     template <class Other>
     StepConstants operator()(const Other& other) const {
         return other;
@@ -179,6 +185,8 @@ bool in_images(const Step& step) {
         case StepKind::collide:
         case StepKind::self_gather:
         case StepKind::self_return:
+        case StepKind::self_couples:
+        case StepKind::self_turn:
             return true;
         default:
             return false;

@@ -68,7 +68,8 @@ std::vector<StepRow> contact_step_rows() {
             returned = of_cloth(self_return, "self return", "self_return.comp"),
             contact = of_all(self_contact, "self contact", "self_contact.comp", found<glsl::self_size_contact>),
             push = of_all(self_push, "self push", "self_push.comp", found<glsl::self_size_push>);
-    gathered.alias = returned.alias = before_alias;
+    StepRow turned = of_cloth(self_turn, "self turn", "self_turn.comp");
+    gathered.alias = returned.alias = turned.alias = before_alias;
     contact.alias = push.alias = motions_alias;
     return {
         gathered,
@@ -85,6 +86,8 @@ std::vector<StepRow> contact_step_rows() {
         push,
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         returned,
+        {self_couples, "self couples", {{plain, "self_couples.comp", over_torque_sums}}},
+        turned,
     };
 }
 

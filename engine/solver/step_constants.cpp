@@ -84,6 +84,7 @@ constexpr ConstantRow constant_rows[] = {
     {"masked", [](Place p) { return p.cloth->masked() ? 1u : 0u; }},
     {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
+    {"pays_ahead", [](Place p) { return p.step.last && p.step.substep > 0 && has(p, Field::paid) ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},

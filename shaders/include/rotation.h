@@ -76,6 +76,41 @@ SHARED TorqueSum torque_on(vec4 position, vec3 start, vec4 now, vec3 moved, vec3
     return torque_of(arm, air.mass, own, torque);
 }
 
+/// Returns the terms of a particle after contact between cloths, zeros of one that is held: in `torque` the couples of
+/// its pairs (self_half_couple), and in `impulse` the angular momentum that it has gained as contact moved it by
+/// `shift`, m, which is no part of its motion.
+SHARED TorqueSum contact_torque_on(vec3 arm, float inverse_mass, vec3 shift, vec3 displacement, vec3 couple) {
+    float mass = inverse_mass > 0.0f ? reciprocal(inverse_mass) : 0.0f;
+    precise vec3 shifted = ordered_cross(shift, displacement) * mass;
+    return torque_of(arm, mass, shifted, couple);
+}
+
+SHARED TorqueSum with_torque(TorqueSum sum, vec3 torque) {
+    return TorqueSum(sum.moment, vec4(0.0f, 0.0f, 0.0f, sum.impulse.w),
+                     vec4(torque.x, torque.y, torque.z, sum.torque.w), sum.products);
+}
+
+/// Returns the sum with all that is to be taken back as its torque. The couples of cloth at rest are those of the
+/// substep before. Taken back after contact, they would set the cloth in motion. So each substep but a frame's last one
+/// also pays the next one's in advance, and contact answers that; `paid` is what this one finds paid.
+SHARED TorqueSum contact_owed(TorqueSum sum, vec3 paid, bool ends_frame) {
+    vec3 couples = vec3(sum.torque.x, sum.torque.y, sum.torque.z);
+    precise vec3 rest = (couples - paid) + vec3(sum.impulse.x, sum.impulse.y, sum.impulse.z);
+    precise vec3 both = rest + couples;
+    return with_torque(sum, ends_frame ? rest : both);
+}
+
+/// Returns the sum with what a substep pays in advance as its torque.
+SHARED TorqueSum contact_advance(TorqueSum sum) {
+    return with_torque(sum, vec3(sum.torque.x, sum.torque.y, sum.torque.z));
+}
+
+/// Returns where a particle is at the end of its motion, relative to `start`, m.
+SHARED vec3 arm_at_end(vec3 position, vec3 displacement, vec3 start) {
+    precise vec3 arm = (position - start) + displacement;
+    return arm;
+}
+
 /// How a cloth is turned at the end of a substep.
 struct Rotation {
     vec3 centre;  // m, relative to the particle `about`
@@ -155,6 +190,32 @@ SHARED Rotation rotation_of(TorqueSum sum, vec4 axis, bool held) {
     vec3 taken = held && axis.w == 0.0f ? about_line : made;
     bool sound = ordered_dot(turn, turn) < 0.01f;
     return sound ? Rotation(centre, turn, taken) : no_rotation();
+}
+
+/// Returns by how much the rotation changes a particle's displacement.
+SHARED vec3 turned_by(Rotation rotation, vec3 arm) {
+    precise vec3 from_centre = arm - rotation.centre;
+    return ordered_cross(rotation.turn, from_centre);
+}
+SHARED vec3 with_turn(vec3 displacement, vec3 by) {
+    precise vec3 turned = displacement + by;
+    return turned;
+}
+SHARED vec3 without_turn(vec3 remainder, vec3 by) {
+    precise vec3 kept = remainder - by;
+    return kept;
+}
+
+/// Returns the place about which a cloth is turned; `start`: that of the particle `about`.
+SHARED vec3 turned_about(Rotation rotation, vec3 start) {
+    precise vec3 centre = start + rotation.centre;
+    return centre;
+}
+
+/// Returns a motion without what a turn about `centre`, which was paid in advance, has added to it.
+SHARED vec3 without_advance(vec3 motion, vec3 turn, vec3 centre, vec3 position) {
+    precise vec3 arm = position - centre;
+    return without_turn(motion, ordered_cross(turn, arm));
 }
 
 /// Returns the displacement of a particle that the rotation takes along.

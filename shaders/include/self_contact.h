@@ -17,11 +17,23 @@
 const float self_gap_kept = 0.25f, self_held_kept = 0.025f;
 /// A correction is at most the first share of the thickness; the list of pairs allows for the second.
 const float self_correction_share = 0.24f, self_listed_share = 0.5f;
+/// Where truncation would leave a particle behind by more than this share of the spacing, its cloth goes on as a whole.
+const float self_lag_share = 0.05f;
 /// A search that visits more nodes is given up: the default device would silently break off a loop of about so many
 /// rounds.
 const int self_visit_limit = 60000;
 /// The common motion is the mean over a lattice of particles with this many along a side.
 const int self_samples = 6, self_cloth_samples = self_samples * self_samples;
+
+/// Returns whether a particle that makes a share of its motion stays far behind (docs/contact.md, "Truncation").
+SHARED bool self_stays_behind(vec3 motion, float share, vec2 spacing) {
+    float least = spacing.y < spacing.x ? spacing.y : spacing.x;
+    precise float reach = least * self_lag_share;
+    precise float lacking = 1.0f - share;
+    precise float lag = ordered_dot(motion, motion) * (lacking * lacking);
+    precise float most = reach * reach;
+    return lag > most;
+}
 
 /// Returns the mean thickness of two cloths; for a cloth and itself it is exact.
 SHARED float self_mean_thickness(SelfCloth one, SelfCloth other) {

@@ -101,6 +101,20 @@ SHARED float self_yields(vec4 weights, vec4 inverse_mass, vec4 holds) {
     return yields;
 }
 
+/// Returns half of the couple with which a pair's impulse acts on its two sides, since it acts on each at that side's
+/// nearest point: so much angular momentum is made on each. It is divided by the largest thickness, as impulses are
+/// summed. `x`: relative to one of the corners.
+SHARED vec3 self_half_couple(vec4 weights, SelfCorners x, vec3 impulse, float largest) {
+    precise vec3 half_couple = ordered_cross(self_sum(weights, x), impulse) * (0.5f / largest);
+    return half_couple;
+}
+
+/// Returns the couple, of masses in units of a cloth's own inner particle, from the sum of such halves.
+SHARED vec3 self_couple_of(vec3 sum, float largest, float lightness) {
+    precise vec3 couple = sum * (largest * lightness);
+    return couple;
+}
+
 SHARED vec3 self_moved_by(vec3 impulse, float inverse_mass) {
     precise vec3 by = impulse * inverse_mass;
     return by;

@@ -2,9 +2,13 @@
 // which halves the atomics. The includer defines SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
 layout(constant_id = 25) const bool wide = false;
 
+#ifndef SUMS_SHEET
+#define SUMS_SHEET push.grid  // columns, rows of the sheet
+#endif
+
 #ifdef SUMS_SLOT
 /// Returns the index of the first of the two vectors of a place's sum.
-int sum_at(int which, int place) { return 2 * (which * push.grid.x * push.grid.y + place); }
+int sum_at(int which, int place) { return 2 * (which * SUMS_SHEET.x * SUMS_SHEET.y + place); }
 layout(set = 0, binding = SUMS_SLOT, std430) buffer WideSums { u64vec2 sums_out[]; }
 wide_sums;
 layout(set = 0, binding = SUMS_SLOT, std430) buffer Sums { uvec4 sums_out[]; }
@@ -41,12 +45,19 @@ void add_impulse(int which, bool edges, uvec4 corners, vec4 weights, vec3 impuls
     add_parts(which, corners.z, shares.c);
     add_parts(which, corners.w, shares.d);
 }
+
+/// Adds half of a pair's couple to each of its two sides.
+void add_couple(uvec4 corners, vec3 half_couple, float largest) {
+    SelfParts parts = self_parts_of(half_couple, 1.0f, self_units_per_impulse(largest));
+    add_parts(self_sum_of_couples, corners.x, parts);
+    add_parts(self_sum_of_couples, corners.w, parts);
+}
 #endif
 #ifdef SUMS_IN_SLOT
 layout(set = 0, binding = SUMS_IN_SLOT, rgba32f) uniform readonly imageBuffer sums_in;  // integers, as bits
 
 SelfSum sum_of(int which, int place) {
-    int texel = 2 * (which * push.grid.x * push.grid.y + place);
+    int texel = 2 * (which * SUMS_SHEET.x * SUMS_SHEET.y + place);
     return SelfSum(floatBitsToUint(imageLoad(sums_in, texel)), floatBitsToUint(imageLoad(sums_in, texel + 1)));
 }
 

@@ -22,6 +22,23 @@ struct RotationPush {
     int sum_count;       // sums that the workgroups store
 };
 
+/// Texels of what a substep of contact pays in advance: couples, of two substeps in turn, then the turn that pays them
+/// and the place about which it goes.
+const int paid_turn = 2, paid_texels = 4;
+
+/// Constants of the steps that give back what contact between cloths makes of angular momentum.
+struct ContactTurnPush {
+    ivec2 grid;
+    ivec2 about;      // as in RotationPush
+    vec4 axis;        // as in RotationPush
+    ivec2 first;      // where the cloth lies on the sheet
+    ivec2 sheet;      // columns, rows of the sheet
+    float largest;    // SelfCloth's
+    float lightness;  // SelfCloth's
+    int sum_count;    // sums that the workgroups store
+    int paid;         // which of two texels holds what the substep before paid in advance; the other is for this one
+};
+
 /// Sums over particles, of masses in units of an inner particle's. Arms are relative to the particle `about`, m.
 struct TorqueSum {
     vec4 moment;    // xyz: mass x arm; w: mass

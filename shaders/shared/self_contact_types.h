@@ -27,10 +27,15 @@ struct SelfBox {
 
 /// So many times the impulses of a substep's contacts are found from each other.
 const int self_iterations = 3;
-/// Sums of impulses by place: those that contacts begin with, those after each round, and what lacks of thicknesses.
-const int self_sum_count = self_iterations + 2, self_sum_of_thickness = self_iterations + 1;
+/// Sums of impulses by place: those that contacts begin with, those after each round, what lacks of thicknesses, and
+/// couples of pairs.
+const int self_sum_count = self_iterations + 3, self_sum_of_thickness = self_iterations + 1,
+          self_sum_of_couples = self_iterations + 2;
 /// In so many rounds motions grow from none to as much as crosses nothing.
 const int self_rounds = 3;
+/// Words of a cloth's shares: whether its particles all make the same share of their motions, then by round the least
+/// share of any of them, as bits.
+const int self_cloth_words = self_rounds + 1;
 
 /// Index into the sizes of indirect dispatches that a pass takes; a pass of several rounds or levels has one for each.
 /// The one for a search is no size: x says whether there is one in this substep, w how many workgroups have come to the
@@ -80,6 +85,8 @@ struct SelfCloth {
     float lightness;   // factor from its particles' relative inverse masses to those of its scene's first cloth
     float least;       // m, distances that rounding leaves in doubt in its scene
     float largest;     // m, the largest thickness that a cloth of its scene keeps
+    int held;          // 1: some of its particles are held at first
+    int unused;
 };
 
 /// Two cloths that started through each other, and how they are worked apart.

@@ -115,7 +115,8 @@ void ContactMirror::upload(const Step& step, const Names& used, const TwinContac
     if (uses(ContactField::crossings) && step.kind == StepKind::self_apart)
         put(ContactField::crossings, std::as_bytes(std::span(twin.crossings)));
     if (uses(ContactField::touching) && step.kind == StepKind::self_contact) upload_touching(twin);
-    if (uses(ContactField::sums) && (step.kind == StepKind::self_contact || step.kind == StepKind::self_push))
+    if (uses(ContactField::sums) && (step.kind == StepKind::self_contact || step.kind == StepKind::self_push ||
+                                     step.kind == StepKind::self_couples))
         upload_sums(twin);
     if (step.kind == StepKind::self_limit || step.kind == StepKind::self_return) upload_shares(step, twin);
 }
@@ -129,6 +130,14 @@ void ContactMirror::upload_shares(const Step& step, const TwinContact& twin) {
     const auto bytes = std::as_bytes(std::span(twin.shares));
     vulkan::upload_range(device_, pool_.buffer(name_of(ContactField::shares)),
                          static_cast<std::size_t>(round - 1) * bytes.size(), bytes);
+    auto of_cloths = list<std::uint32_t>(ContactField::cloth_shares);
+    for (std::size_t cloth = 0; cloth < twin.cloth_shares.size(); ++cloth) {
+        const auto& [whole, least] = twin.cloth_shares[cloth];
+        const std::size_t first = cloth * glsl::self_cloth_words;
+        of_cloths[first] = whole ? 1 : 0;
+        of_cloths[first + static_cast<std::size_t>(round)] = glsl::floatBitsToUint(least);
+    }
+    put(ContactField::cloth_shares, std::as_bytes(std::span(of_cloths)));
 }
 
 void ContactMirror::upload_motions(ContactField field, const std::vector<vec4>& values) const {

@@ -56,6 +56,8 @@ const std::vector<StepBound>& step_bounds() {
         // it is held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
         {self_limit, 128, fixed, 10, "as self_begin; what moves along a plane goes towards it or not by rounding"},
         {self_return, 16, fixed, 0, "products and a division"},
+        {self_couples, 64, fixed, 0, "as torque"},
+        {self_turn, 64, fixed, 0, "as rotate"},
     };
     return bounds;
 }

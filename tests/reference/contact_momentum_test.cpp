@@ -170,7 +170,9 @@ void follow(const SimulationModel& model, Worst& worst) {
 class ClosedSystems : public testing::TestWithParam<SolverMethod> {};
 
 TEST_P(ClosedSystems, KeepTheirMomentumByStatedVelocitiesAndGainNoEnergy) {
-    for (const std::uint32_t substeps : {1u, 4u, 16u}) {
+    // Relaxation has a torque of its own, where links are wrong: it takes one after another.
+    const bool relaxes = GetParam() == SolverMethod::relax;
+    for (const std::uint32_t substeps : {1u, 4u, 16u, 64u}) {
         std::mt19937 random(69);
         Worst worst;
         for (int trial = 0; trial < 12; ++trial) {
@@ -181,9 +183,11 @@ TEST_P(ClosedSystems, KeepTheirMomentumByStatedVelocitiesAndGainNoEnergy) {
                     substeps, worst.struck, worst.linear, worst.angular, worst.energy);
         EXPECT_GE(worst.struck, 9);
         EXPECT_LT(worst.linear, 1e-4);
-        if (substeps == 16) {
-            EXPECT_LT(worst.energy, 1.005);
-        }
+        EXPECT_LT(worst.angular, relaxes ? 0.1 / substeps : substeps < 16 ? 0.03 / substeps : 1e-3);
+        // Contact moves what touches after the springs were solved. At few substeps that stretches them for a moment,
+        // but for those that micro-steps soften.
+        const bool follows = GetParam() == SolverMethod::explicit_steps || substeps >= 16;
+        EXPECT_LT(worst.energy, follows ? 1.005 : 1 + 7.0 / substeps);
     }
 }
 

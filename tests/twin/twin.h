@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cloth/cloth_state.h"
@@ -77,6 +78,9 @@ struct TwinSums {
     glsl::uint weight = 0;
 };
 
+/// Returns what a sum of impulses, or of couples, came to; `largest` as in SelfCloth.
+glsl::vec3 summed(const TwinSums& sums, std::size_t which, float largest);
+
 /// The passes of contact hand each other these lists, by place on the sheet of all cloths, as on the device.
 struct TwinContact {
     explicit TwinContact(const SelfContact& contact);
@@ -94,7 +98,9 @@ struct TwinContact {
     std::vector<glsl::SelfCrossings> crossings;  ///< by pair of cloths that started through each other
     std::vector<glsl::vec3> led;                 ///< displacement that leads each cloth apart from others, m
     std::vector<glsl::vec4> before;
-    std::vector<float> shares;  ///< shares of their motions that the particles make, after the last round
+    std::vector<float> shares;  ///< shares of their motions that the particles may make, after the last round
+    /// By cloth: whether all of its particles make the least of their shares, and that share in the last round.
+    std::vector<std::pair<bool, float>> cloth_shares;
     glsl::SelfRecord record{};
 };
 

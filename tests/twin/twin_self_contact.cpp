@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "cloth/texels.h"
-#include "twin/kernels.h"
-#include "twin/twin.h"
+#include "twin/contact_step.h"
 
 namespace drape {
 
@@ -16,132 +15,7 @@ namespace {
 
 float corner_side(bool edges, int k) { return k == 0 || (edges && k == 1) ? 1.0f : -1.0f; }
 
-/// A step of contact: each function is a pass over the sheet.
-class ContactStep {
-  public:
-    ContactStep(TwinContact& contact, const SelfContactPush& push, bool looks_back = false, bool ends_frame = false)
-        : contact_(contact), model_(*contact.model), push_(push), looks_back_(looks_back), ends_frame_(ends_frame) {}
-
-    void boxes();
-    void crossings();
-    void apart();
-    void pairs();
-    void contact();
-    void push();
-    void limit();
-    void count_lists();
-    void cut_short(std::size_t cloth);
-
-  private:
-    uint place(ivec2 texel) const { return static_cast<uint>(texel.y * push_.grid.x + texel.x); }
-    uint place(uint corner) const { return place(self_texel(corner)); }
-    ivec2 texel_of(std::size_t place) const {
-        return {static_cast<int>(place) % push_.grid.x, static_cast<int>(place) / push_.grid.x};
-    }
-    bool owned(std::size_t place) const { return contact_.owners[place] >= 0; }
-    const SelfCloth& cloth_at(std::size_t place) const {
-        return model_.cloths[static_cast<std::size_t>(contact_.owners[place])];
-    }
-    const SelfCloth& cloth_of(uint corner) const { return cloth_at(place(corner)); }
-    uint meeting(std::size_t one, std::size_t other) const {
-        const auto a = static_cast<std::size_t>(contact_.owners[one]),
-                   b = static_cast<std::size_t>(contact_.owners[other]);
-        return model_.meetings[a * model_.cloths.size() + b];
-    }
-    bool meet(std::size_t one, std::size_t other) const { return meeting(one, other) != self_meets_not; }
-    bool still_cross(std::size_t one, std::size_t other) const {
-        const uint meets = meeting(one, other);
-        return meets >= self_meets_apart && contact_.crossings[meets - self_meets_apart].count > 0;
-    }
-    bool boxes_meet(std::size_t a, std::size_t b) const {
-        return self_boxes_meet(contact_.boxes[a], contact_.boxes[b], push_,
-                               self_mean_thickness(cloth_at(a), cloth_at(b)));
-    }
-    SelfCell cell(std::size_t place) const;
-    bool inside(const SelfCloth& cloth, ivec2 texel) const {
-        return texel.x - cloth.first.x < cloth.grid.x && texel.y - cloth.first.y < cloth.grid.y;
-    }
-    vec3 position(uint place) const { return xyz(contact_.positions[place]); }
-    vec3 displacement(uint place) const { return xyz(contact_.displacements[place]); }
-    float inverse_mass(uint place) const { return contact_.positions[place].w; }
-    bool held(uint place) const { return !(inverse_mass(place) > 0.0f); }
-    /// The motion that impulses of this step change.
-    vec3 changed(uint place) const {
-        return xyz(looks_back_ ? contact_.last_motions[place] : contact_.displacements[place]);
-    }
-    bool begins_with_none() const { return looks_back_ && push_.round == 0; }
-    vec3 motion(uint place) const { return self_relative_motion(displacement(place), xyz(contact_.record.carried)); }
-    vec3 bounded(uint place) const {
-        vec3 moved = displacement(place);
-        if (!held(place))
-            moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried),
-                                 cloth_at(place).thickness);
-        return self_relative_motion(moved, xyz(contact_.record.carried));
-    }
-    template <class Of>
-    SelfCorners corners(const TwinPair& pair, const Of& of) const {
-        const uvec4& all = pair.corners;
-        return {of(place(all.x)), of(place(all.y)), of(place(all.z)), of(place(all.w))};
-    }
-    std::array<uint, 4> places(const TwinPair& pair) const {
-        const uvec4& all = pair.corners;
-        return {place(all.x), place(all.y), place(all.z), place(all.w)};
-    }
-    SelfCorners positions(const TwinPair& pair) const {
-        return corners(pair, [this](uint place) { return position(place); });
-    }
-    /// Returns the thickness that a pair keeps, m, and its friction.
-    vec2 skin(const TwinPair& pair, vec4 weights) const {
-        const uvec4& all = pair.corners;
-        const SelfCloth &one = cloth_of(all.x), &other = cloth_of(all.w);
-        vec2 both{self_mean_thickness(one, other), self_pair_friction(one, other)};
-        if (!model_.skins.empty()) {
-            const auto [a, b, c, d] = places(pair);
-            const vec2 skins[] = {model_.skins[a], model_.skins[b], model_.skins[c], model_.skins[d]};
-            both = {self_thickness_there(weights, {skins[0].x, skins[1].x, skins[2].x, skins[3].x}),
-                    self_friction_there(pair.edges, weights, {skins[0].y, skins[1].y, skins[2].y, skins[3].y})};
-        }
-        return {self_pair_thickness(both.x, one, other, pair.edges, self_texel(all.x), self_texel(all.y),
-                                    self_texel(all.z), self_texel(all.w)),
-                both.y};
-    }
-    SelfBox point_box(uint place) const { return self_point_box(position(place), motion(place)); }
-    SelfBox slab(uint corner, vec3 axis) const {
-        return self_slab(position(place(corner)), motion(place(corner)), axis);
-    }
-    template <class... Corners>
-    SelfBox slab(vec3 axis, uint first, Corners... others) const {
-        SelfBox box = slab(first, axis);
-        for (const uint corner : {others...}) box = self_slabs_joined(box, slab(corner, axis));
-        return box;
-    }
-    vec3 cell_normal(ivec2 own) const;
-    SelfBox cell_box(ivec2 own) const;
-    bool lies_flat(ivec2 cell) const;
-    void add_between(ivec2 a, ivec2 b);
-    bool triangle_exists(ivec2 cell, int which) const;
-    bool edge_exists(ivec2 particle, int k) const;
-    void add_triangles(ivec2 particle, ivec2 cell, vec3 axis);
-    void add_pair(const TwinPair& pair, vec3 axis);
-    void touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept);
-    void add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse);
-    vec3 impulse_at(std::size_t round, uint place) const;
-    vec3 motion_in_round(uint place, float mass) const;
-    void work(TwinTouch& pair);
-    float mass_of(uint corner, const SelfCloth& cloth) const { return inverse_mass(place(corner)) * cloth.lightness; }
-    void clear_rounds(std::size_t place) {
-        for (std::size_t round = 1; round <= self_iterations; ++round) contact_.sums[place].units[round] = {};
-    }
-    void move_to(std::size_t place, vec3 displacement) {
-        contact_.displacements[place] = texel(displacement, contact_.displacements[place].w);
-        contact_.before[place].w = self_pushed;
-    }
-
-    TwinContact& contact_;
-    const SelfContact& model_;
-    const SelfContactPush& push_;
-    bool looks_back_, ends_frame_;
-};
+}  // namespace
 
 SelfBox ContactStep::cell_box(ivec2 own) const {
     const auto box_of = [&](int columns, int rows) { return point_box(place(ivec2{own.x + columns, own.y + rows})); };
@@ -163,6 +37,7 @@ void ContactStep::boxes() {
     contact_.pairs.clear();
     contact_.touching.clear();
     contact_.boxes.assign(count, {});
+    contact_.cloth_shares.assign(model_.cloths.size(), {});
     for (std::size_t own = 0; own < count; ++own)
         if (owned(own)) {
             contact_.boxes[own] = cell_box(texel_of(own));
@@ -309,28 +184,31 @@ void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction
     add_impulse(0, pair.edges, all, gap.weights, begun);
 }
 
+void ContactStep::add_parts(std::size_t which, uint corner, const SelfParts& parts) {
+    const auto units = [](ivec2 both) { return std::int64_t{both.x} + std::int64_t{both.y} * (1 << 20); };
+    auto& sum = contact_.sums[place(corner)].units[which];
+    sum[0] += units(parts.x);
+    sum[1] += units(parts.y);
+    sum[2] += units(parts.z);
+}
+
 void ContactStep::add_impulse(std::size_t round, bool edges, const uvec4& all, vec4 weights, vec3 impulse) {
     const SelfShares shares = self_shares(edges, weights, impulse, self_units_per_impulse(cloth_of(all.x).largest));
-    const auto units = [](ivec2 parts) { return std::int64_t{parts.x} + std::int64_t{parts.y} * (1 << 20); };
-    const auto add = [&](uint corner, const SelfParts& parts) {
-        auto& sum = contact_.sums[place(corner)].units[round];
-        sum[0] += units(parts.x);
-        sum[1] += units(parts.y);
-        sum[2] += units(parts.z);
-    };
-    add(all.x, shares.a);
-    add(all.y, shares.b);
-    add(all.z, shares.c);
-    add(all.w, shares.d);
+    add_parts(round, all.x, shares.a);
+    add_parts(round, all.y, shares.b);
+    add_parts(round, all.z, shares.c);
+    add_parts(round, all.w, shares.d);
+}
+
+void ContactStep::add_couple(const TwinPair& pair, vec4 weights, vec3 impulse) {
+    const float largest = cloth_of(pair.corners.x).largest;
+    const vec3 half_couple = self_half_couple(weights, self_relative(positions(pair)), impulse, largest);
+    const SelfParts parts = self_parts_of(half_couple, 1.0f, self_units_per_impulse(largest));
+    for (const uint corner : {pair.corners.x, pair.corners.w}) add_parts(self_sum_of_couples, corner, parts);
 }
 
 vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
-    const auto number = [](std::int64_t units) {
-        const auto bits = static_cast<std::uint64_t>(units);
-        return self_number({static_cast<uint>(bits), static_cast<uint>(bits >> 32)});
-    };
-    const auto& sum = contact_.sums[place].units[round];
-    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, cloth_at(place).largest);
+    return summed(contact_.sums[place], round, cloth_at(place).largest);
 }
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
@@ -363,8 +241,10 @@ void ContactStep::work(TwinTouch& pair) {
     if (round == 0)
         add_impulse(self_sum_of_thickness, pair.edges, all, touch.weights,
                     xyz(touch.normal) * self_leading(touch, yields));
-    if (push_.round == self_iterations - 1 && (impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f))
-        contact_.borne[{all.x, all.y, all.z, all.w, pair.edges}] = self_borne_force(impulse, push_.step);
+    const bool presses = impulse.x != 0.0f || impulse.y != 0.0f || impulse.z != 0.0f;
+    if (push_.round != self_iterations - 1 || !presses) return;
+    add_couple({pair.edges, all}, touch.weights, impulse);
+    contact_.borne[{all.x, all.y, all.z, all.w, pair.edges}] = self_borne_force(impulse, push_.step);
 }
 
 void ContactStep::contact() {
@@ -397,9 +277,8 @@ void ContactStep::push() {
 }
 
 void ContactStep::limit() {
-    std::vector<float>& shares = contact_.shares;
-    if (push_.round == 0) shares.assign(contact_.before.size(), 0);
-    std::vector<float> next(shares.size(), 1);
+    if (push_.round == 0) contact_.shares.assign(contact_.before.size(), 0);
+    std::vector<float> next(contact_.shares.size(), 1);
     for (const TwinPair& pair : contact_.pairs) {
         const bool edges = pair.edges;
         const SelfGap gap = self_gap_squared(edges, positions(pair));
@@ -407,17 +286,39 @@ void ContactStep::limit() {
         const auto corner = places(pair);
         const auto along = [&](uint place) { return ordered_dot(gap.normal, bounded(place)); };
         const vec4 all{along(corner[0]), along(corner[1]), along(corner[2]), along(corner[3])};
-        const vec4 made{shares[corner[0]], shares[corner[1]], shares[corner[2]], shares[corner[3]]};
+        const vec4 made{made_by(corner[0]), made_by(corner[1]), made_by(corner[2]), made_by(corner[3])};
         const vec4 end = self_ends(gap, all, made);
         const float middle = self_middle(edges, gap.apart, end, self_wants(all, made));
         for (std::size_t k = 0; k < 4; ++k) {
             const uint at = corner[k];
             const float share = self_share(gap, middle, component(end, k), corner_side(edges, static_cast<int>(k)),
-                                           component(all, k), shares[at], held(at), cloth_at(at).least);
+                                           component(all, k), component(made, k), held(at), cloth_at(at).least);
             next[at] = std::min(next[at], share);
+            if (push_.round == 0 && !held(at) && contact_.owners[corner[0]] != contact_.owners[corner[3]])
+                leave_behind(at, share);
         }
     }
-    shares = next;
+    contact_.shares = next;
+    share_in_cloths();
+}
+
+/// A free cloth of which a particle stays far behind for another cloth's sake goes on as a whole.
+void ContactStep::leave_behind(uint place, float share) {
+    const SelfCloth& cloth = cloth_at(place);
+    if (cloth.held == 0 && self_stays_behind(bounded(place), share, cloth.spacing))
+        contact_.cloth_shares[static_cast<std::size_t>(contact_.owners[place])].first = true;
+}
+
+/// Finds the least share of a particle of each cloth.
+void ContactStep::share_in_cloths() {
+    for (auto& [whole, least] : contact_.cloth_shares) least = 1;
+    for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
+        const auto at = static_cast<uint>(i);
+        const float share = contact_.shares[i];
+        if (!owned(i) || held(at) || !(share < 1.0f)) continue;
+        auto& [whole, least] = contact_.cloth_shares[static_cast<std::size_t>(contact_.owners[i])];
+        least = std::min(least, share);
+    }
 }
 
 void ContactStep::count_lists() {
@@ -435,7 +336,8 @@ void ContactStep::cut_short(std::size_t cloth) {
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (contact_.owners[i] != static_cast<int>(cloth)) continue;
         const auto at = static_cast<uint>(i);
-        const float share = contact_.shares[i];
+        const auto& [whole, least] = contact_.cloth_shares[cloth];
+        const float share = whole && !held(at) ? least : contact_.shares[i];
         if (held(at)) {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
@@ -461,17 +363,6 @@ void ContactStep::cut_short(std::size_t cloth) {
         if (!pushed) contact_.before[i].w = self_led_out;
     }
 }
-
-}  // namespace
-
-TwinContact::TwinContact(const SelfContact& contact)
-    : model(&contact),
-      owners(contact.owners()),
-      positions(owners.size()),
-      displacements(owners.size()),
-      last_motions(owners.size()),
-      supports(owners.size()),
-      before(owners.size()) {}
 
 void cut_short(TwinContact& contact, std::size_t cloth) {
     ContactStep step(contact, contact.model->push);

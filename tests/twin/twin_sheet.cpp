@@ -10,6 +10,24 @@ namespace drape {
 
 using namespace glsl;
 
+vec3 summed(const TwinSums& sums, std::size_t which, float largest) {
+    const auto number = [](std::int64_t units) {
+        const auto bits = static_cast<std::uint64_t>(units);
+        return self_number({static_cast<uint>(bits), static_cast<uint>(bits >> 32)});
+    };
+    const auto& sum = sums.units[which];
+    return self_impulse_of({number(sum[0]), number(sum[1]), number(sum[2])}, largest);
+}
+
+TwinContact::TwinContact(const SelfContact& contact)
+    : model(&contact),
+      owners(contact.owners()),
+      positions(owners.size()),
+      displacements(owners.size()),
+      last_motions(owners.size()),
+      supports(owners.size()),
+      before(owners.size()) {}
+
 std::size_t place_on_sheet(const SelfClothPush& push, std::size_t particle) {
     const auto columns = static_cast<std::size_t>(push.grid.x);
     const std::size_t column = particle % columns, row = particle / columns;
@@ -50,7 +68,14 @@ void run_self_gather(const TwinPlace& where) {
         const std::size_t place = place_on_sheet(push, i);
         meeting->positions[place] = state[Field::position][i];
         meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
-        if (step.last) meeting->last_motions[place] = where.before()[i];
+        if (step.last) {
+            vec4& before = where.before()[i];
+            if (step.substep > 0 && !state[Field::paid].empty() && state[Field::position][i].w > 0.0f)
+                before = texel(without_advance(xyz(before), xyz(state[Field::paid][paid_turn]),
+                                               xyz(state[Field::paid][paid_turn + 1]), xyz(state[Field::position][i])),
+                               before.w);
+            meeting->last_motions[place] = before;
+        }
         if (!state[Field::support].empty())
             meeting->supports[place] = {std::exchange(state[Field::support][i], vec4{}), state[Field::support_grip][i]};
     }
