@@ -21,7 +21,12 @@ layout(set = 0, binding = 7, std430) buffer Shares { uint shares[]; };
 layout(set = 0, binding = 8, std430) buffer Sizes { uvec4 sizes[]; };
 #include "include/self_lists.h"
 layout(set = 0, binding = 9, std430) buffer ClothShares { uint cloth_shares[]; };
-#include "include/self_shares.h"
+/// Returns the share that a particle made of its motion in a round: its own, or that of its cloth where this goes on as
+/// a whole.
+float share_made(float own, int owner, int round) {
+    uint least = cloth_shares[owner * self_cloth_words + 1 + round];
+    return cloth_shares[owner * self_cloth_words] != 0u ? uintBitsToFloat(least) : own;
+}
 
 #include "include/self_carried.h"
 
@@ -51,7 +56,7 @@ Corner corner_of(uint which) {
     float share = 0.0f;
     if (push.round > 0) {
         share = uintBitsToFloat(shares[last]);
-        share = held ? share : share_made(share, owner, push.round - 1);
+        if (cloth_count > 1) share = held ? share : share_made(share, owner, push.round - 1);
     }
     return Corner(place, owner, x.xyz, held, vec3(0.0f), 0.0f, share);
 }
@@ -61,7 +66,7 @@ void bound(SelfGap gap, Corner corner, float middle, float end, float side, Self
     if (share < 1.0f) {
         atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
         cuts_short = true;
-        if (corner.held) return;
+        if (cloth_count == 1 || corner.held) return;
         int own = corner.owner * self_cloth_words;
         atomicMin(cloth_shares[own + 1 + push.round], floatBitsToUint(share));
         bool alone = push.round == 0 && apart && cloth.held == 0;

@@ -37,10 +37,12 @@ layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
 layout(set = 0, binding = 16, std430) readonly buffer Owners { int owners[]; };
 layout(set = 0, binding = 17, std430) readonly buffer ClothShares { uint cloth_shares[]; };
-#include "include/self_shares.h"
 
-vec3 carried;  // the member's, and the cloth; both are read before anything has branched (docs/devices.md)
-int owner;
+// These are the member's, and whether the cloth goes on as a whole and its share then; all are read before anything has
+// branched (docs/devices.md).
+vec3 carried;
+bool whole;
+float least;
 
 struct Motion {
     bool held, cut, pushed, led;
@@ -58,7 +60,7 @@ Motion motion_of(ivec2 texel) {
     vec4 was = imageLoad(before, place);
     vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
     vec3 bounded = held ? moved : allowed;
-    if (!held) share = share_made(share, owner, self_rounds - 1);
+    share = whole && !held ? least : share;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
     bool pushed = was.w == self_pushed || was.w == self_pushed_and_led, led = was.w >= self_led_out;
     return Motion(held, share < 1.0f || changed, pushed, led, moved, bounded, share);
@@ -152,7 +154,9 @@ void count_own(int member) {
 
 void main() {
     carried = record[push.member].carried.xyz;
-    owner = max(owners[push.first.y * push.sheet.x + push.first.x], 0);
+    int own = max(owners[push.first.y * push.sheet.x + push.first.x], 0) * self_cloth_words;
+    whole = cloth_shares[own] != 0u;
+    least = uintBitsToFloat(cloth_shares[own + self_rounds]);
     end_all();
     if (unproved > 0u) atomicAdd(record[push.member].unproved, unproved);
     if (truncated > 0u) atomicAdd(record[push.member].truncated, truncated);

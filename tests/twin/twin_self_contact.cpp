@@ -6,6 +6,7 @@
 
 #include "cloth/texels.h"
 #include "twin/contact_step.h"
+#include "twin/kernels.h"
 
 namespace drape {
 
