@@ -18,7 +18,8 @@ layout(location = 0) out vec4 color;
 void main() {
     vec3 to_eye = constants.eye.xyz - world;
     bool plane = collider_kind == kind_plane;
-    vec3 normal = plane && dot(surface_normal, to_eye) < 0.0 ? -surface_normal : surface_normal;
+    bool may_be_open = plane || collider_kind == kind_mesh;
+    vec3 normal = may_be_open && dot(surface_normal, to_eye) < 0.0 ? -surface_normal : surface_normal;
     vec3 diffuse = albedo.xyz;
     if (plane) {
         vec2 cell = on_plane / albedo.w;

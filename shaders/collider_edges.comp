@@ -107,17 +107,39 @@ struct Led {
     bool touched;  // a collider moved it
 };
 
-/// `plane`: the plane that touches a mesh nearest to the corner a.
-vec3 taken_by_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 plane, ColliderRecord collider,
-                       bool is_mesh) {
+/// Returns the place of a particle, or the place where the line from `far` through `end` goes on if there is none.
+vec3 place_of(ivec2 texel, vec3 far, vec3 end, ColliderRecord collider) {
+    bool is_there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, push.grid));
+    return is_there ? corner_at(texel, collider).local : mirrored(far, end);
+}
+
+EdgeLine line_of(ivec2 from, ivec2 to, vec3 a, vec3 b, ColliderRecord collider) {
+    return EdgeLine(place_of(2 * from - to, b, a, collider), place_of(2 * to - from, a, b, collider));
+}
+
+/// Returns the normal of the cloth at a particle, of either sign, as rows and columns say.
+vec3 normal_across(ivec2 texel, vec3 local, ColliderRecord collider) {
+    ivec2 row = ivec2(1, 0), column = ivec2(0, 1);
+    vec3 left = place_of(texel - row, place_of(texel + row, local, local, collider), local, collider);
+    vec3 up = place_of(texel - column, place_of(texel + column, local, local, collider), local, collider);
+    vec3 right = place_of(texel + row, left, local, collider), down = place_of(texel + column, up, local, collider);
+    return unit_of(ordered_cross(direction_between(left, local, local, right),
+                                 direction_between(up, local, local, down)));
+}
+
+/// The corners of a triangle from `texel` on, whose plane that touches a mesh is given.
+Taken taken_by_triangle(Taken taken, ivec2 texel, ivec2 next, ivec2 last, CutCorner a, vec4 plane,
+                        ColliderRecord collider, bool is_mesh) {
+    CutCorner b = corner_at(next, collider), c = corner_at(last, collider);
     if (has_meshes)
         if (is_mesh) return with_mesh_triangle(taken, a, b, c, plane, collider, push.contact.w);
-    return with_triangle(taken, a, b, c, collider, push.contact.w);
+    return with_triangle(taken, a, b, c, line_of(texel, next, a.local, b.local, collider),
+                         line_of(texel, last, a.local, c.local, collider), collider, push.contact.w);
 }
 
 Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near, bool is_mesh) {
     vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
-    vec3 taken = vec3(0.0f, 0.0f, 0.0f);
+    Taken taken = Taken(vec3(0.0f, 0.0f, 0.0f), 0.0f);
     vec4 plane = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     if (has_meshes)
         if (is_mesh) {
@@ -132,16 +154,23 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
         ivec2 next = cell + triangle_corner(around.z, own == 2 ? 0 : own + 1);
         ivec2 last = cell + triangle_corner(around.z, own == 0 ? 2 : own - 1);
         if (near && exists(cell, around.z))
-            taken = taken_by_triangle(taken, CutCorner(local, led.moved, start.w), corner_at(next, collider),
-                                      corner_at(last, collider), plane, collider, is_mesh);
+            taken = taken_by_triangle(taken, texel, next, last, CutCorner(local, led.moved, start.w), plane, collider,
+                                      is_mesh);
         ++k;
     } while (near && k < triangles_around_particle);
     vec3 surface = surface_displacement(collider, local);
     if (has_meshes)
         if (is_mesh) surface = mesh_displacement(collider, local);
-    float friction = skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy).y;
-    return Led(taken_displacement(led.moved, taken, surface, collider, friction),
-               led.touched || ordered_dot(taken, taken) > 0.0f);
+    vec2 own = skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.zy);
+    vec3 moved = taken_displacement(led.moved, taken, surface, collider, own.y);
+    bool touched = led.touched || ordered_dot(taken.by, taken.by) > 0.0f;
+    if (again && near && !is_mesh) {
+        vec3 bent = bent_contact(collider, start.xyz, moved, normal_across(texel, local, collider), push.contact.x,
+                                 own.x, own.y);
+        touched = touched || bent != moved;
+        moved = bent;
+    }
+    return Led(moved, touched);
 }
 
 bool near_now(ColliderRecord collider, vec4 start, Led led) {

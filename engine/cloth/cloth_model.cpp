@@ -73,6 +73,7 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
 
 glsl::CollisionPush ClothModel::collider_edges() const {
     glsl::CollisionPush push = collision;
+    push.contact.z = push.contact.x;
     push.contact.x = edge_reach;
     return push;
 }

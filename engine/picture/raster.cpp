@@ -195,12 +195,11 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     state.vertex = {"collider.vert"}, state.fragment = {"collider.frag"};
     shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
-        const bool mesh = range.has_corners;
-        if (mesh)
-            shadow_state.constants = {{"is_mesh", 1}};
+        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
+        if (range.has_corners)
+            shadow_state.constants.emplace_back("is_mesh", 1u);
         else
-            shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)},
-                                      {"round_columns", range.round_columns}};
+            shadow_state.constants.emplace_back("round_columns", range.round_columns);
         state.constants = shadow_state.constants;
         state.constants.insert(state.constants.end(), lit.begin(), lit.end());
         // A bounded body is closed: its inner side is not visible from outside. The y axis of the shadow map points up,

@@ -1,5 +1,5 @@
-// Warns of what a scene may have, but hardly means: pins that hold cloth where it cannot be, and values far beyond what
-// cloth and pictures of it have.
+// Warns of what a scene may have, but hardly means: pins that hold cloth where it cannot be, grids too coarse for
+// edges, and values far beyond what cloth and pictures of it have.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 
 #include "base/vectors.h"
 #include "scene/scene_rules.h"
+#include "world/collider_pose.h"
+#include "world/contact_shape.h"
 #include "world/held.h"
 #include "world/start.h"
 #include "world/weather.h"
@@ -113,6 +115,75 @@ void warn_of_blades(const SceneNode& cutters, const SceneDescription& scene) {
         }
 }
 
+/// Cloth that is drawn over the edge of a box holds by the capstan's law if its particles are at most so many
+/// thicknesses apart (tests/reference/edge_capstan_test.cpp); farther apart, by half to twice of it.
+constexpr double widest_at_edge = 5;
+
+/// Returns a box around where a cloth may come: it falls as far as pins let it, and stays beside itself if nothing
+/// drives it.
+StartBox reach_of(const Cloth& cloth, const SceneDescription& scene, bool driven) {
+    const double size = std::hypot(cloth.size[0] * std::abs(cloth.placement.scale[0]),
+                                   cloth.size[1] * std::abs(cloth.placement.scale[1]));
+    const double aside = driven ? size : std::ranges::max(grid_spacing(cloth));
+    StartBox box = start_box(cloth);
+    const double fall = cloth.pins.empty() ? 1e6 : size;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double down = scene.gravity[k] == 0 ? 0 : std::copysign(fall, scene.gravity[k]);
+        box.low[k] += std::min(down, 0.0) - aside;
+        box.high[k] += std::max(down, 0.0) + aside;
+    }
+    return box;
+}
+
+bool holds(const StartBox& box, const Vec3& at) {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) inside = inside && at[k] >= box.low[k] && at[k] <= box.high[k];
+    return inside;
+}
+
+/// Returns whether an edge of a box that is at `pose` goes through `within`.
+bool edge_within(const Vec3& half_extents, const ColliderPose& pose, const StartBox& within) {
+    constexpr int points = 64;
+    for (std::size_t along = 0; along < 3; ++along)
+        for (unsigned corner = 0; corner < 4; ++corner)
+            for (int point = 0; point <= points; ++point) {
+                Vec3 local{};
+                local[along] = half_extents[along] * (2.0 * point / points - 1);
+                local[(along + 1) % 3] = half_extents[(along + 1) % 3] * ((corner & 1) == 0 ? -1 : 1);
+                local[(along + 2) % 3] = half_extents[(along + 2) % 3] * ((corner & 2) == 0 ? -1 : 1);
+                if (holds(within, plus(pose.center, rotate(pose.rotation, local)))) return true;
+            }
+    return false;
+}
+
+bool may_reach_edge(const Cloth& cloth, const Collider& collider, const SceneDescription& scene) {
+    const auto* const box = std::get_if<Box>(&collider.shape);
+    if (box == nullptr) return false;
+    const bool pins_move = std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.path.keys.empty(); });
+    const bool driven = pins_move || !collider.path.keys.empty() || start_speed(cloth) > 0 ||
+                        !scene.gravity_keys.empty() || length(strongest_wind(scene.wind)) > 0;
+    const StartBox within = reach_of(cloth, scene, driven);
+    if (edge_within(box->half_extents, collider_pose(collider, 0), within)) return true;
+    return std::ranges::any_of(collider.path.keys, [&](const MotionKey& key) {
+        return edge_within(box->half_extents, collider_pose(collider, key.time), within);
+    });
+}
+
+/// Particles far apart are caught by an edge, or slip over it.
+void warn_of_edges(const SceneNode& cloths, const SceneDescription& scene) {
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const double spacing = std::ranges::max(grid_spacing(cloth)), takes = widest_at_edge * least_thickness(cloth);
+        const auto reaches = [&](const Collider& collider) { return may_reach_edge(cloth, collider, scene); };
+        if (spacing <= takes || !std::ranges::any_of(scene.colliders, reaches)) continue;
+        cloths.element(i).warn(fmt::format(
+            "particles of cloth \"{}\" are {:.3g} m apart, and the edge of a box takes at most {:.3g} m, {} "
+            "thicknesses: farther apart they are caught by it, or slip over it, as no friction makes cloth; a finer "
+            "grid, a larger thickness, or a capsule along the edge helps",
+            cloth.name, spacing, takes, widest_at_edge));
+    }
+}
+
 }  // namespace
 
 void warn_of_doubts(const Members& members, const SceneDescription& scene) {
@@ -135,6 +206,7 @@ void warn_of_doubts(const Members& members, const SceneDescription& scene) {
         members["camera"].member("fov").warn(fmt::format(
             "a field of view of {:.3g} degrees shows next to nothing: angles are in degrees", scene.camera->fov));
     if (members.fit({"cloths", "cutters"})) warn_of_blades(members["cutters"], scene);
+    if (members.fit({"cloths", "colliders", "wind"})) warn_of_edges(members["cloths"], scene);
     if (members.fit({"time", "cloths", "colliders", "solver"})) warn_of_held(members["cloths"], scene);
 }
 

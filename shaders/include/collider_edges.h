@@ -24,11 +24,12 @@ struct CutCorner {
 /// The shortest way out of the box along one direction.
 struct BoxCut {
     vec3 normal;  // local, outward, unit length
-    float depth;  // m; not > 0: outside
+    float depth;  // along it, m; not > 0: outside
     vec3 shares;  // weights of the corners at the touching point
+    vec3 way;     // along which contact presses, local, outward, unit length
 };
 
-SHARED BoxCut no_cut() { return BoxCut(vec3(0.0f, 1.0f, 0.0f), 0.0f, vec3(1.0f, 0.0f, 0.0f)); }
+SHARED BoxCut no_cut() { return BoxCut(vec3(0.0f, 1.0f, 0.0f), 0.0f, vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 1.0f, 0.0f)); }
 
 SHARED float smaller_of(float a, float b) { return a < b ? a : b; }
 SHARED float larger_of(float a, float b) { return a > b ? a : b; }
@@ -73,9 +74,61 @@ SHARED vec4 past_box_edge(vec2 from, vec2 along, vec2 half_extents) {
     return vec4(normal.x, normal.y, depth, share);
 }
 
+/// Contact leads out along a mean of normals. If that is steeper against one of them than this cosine, the collider is
+/// too sharp there for the cloth, or too sharp or thin for its samples, and the mean is not taken.
+const float least_cosine = 0.3f;
+
+/// The particles before and after the ends of an edge of the cloth, in the line that it continues; local, m.
+struct EdgeLine {
+    vec3 before, after;
+};
+
+/// Returns where the line from `far` through `end` goes on.
+SHARED vec3 mirrored(vec3 far, vec3 end) {
+    precise vec3 on = end * 2.0f - far;
+    return on;
+}
+
+/// Returns the vector with unit length, or zero.
+SHARED vec3 unit_of(vec3 v) {
+    float squared = ordered_dot(v, v);
+    if (!(squared > 0.0f)) return v;
+    precise vec3 unit = v / sqrt(squared);
+    return unit;
+}
+
+/// Returns the cloth's direction between a and b as the mean of that before a and that after b.
+SHARED vec3 direction_between(vec3 before, vec3 a, vec3 b, vec3 after) {
+    precise vec3 to_a = a - before;
+    precise vec3 from_b = after - b;
+    precise vec3 both = unit_of(to_a) + unit_of(from_b);
+    return unit_of(both);
+}
+
+/// Returns the way along which a contact near an edge of a box presses. Cloth bends over an edge within a cell, where
+/// its particles cannot show it: pressed along the normals of faces and links it would be caught by the edge at every
+/// particle, as a chain of stiff links is, and hold several times what friction does. So it is pressed along its own
+/// normal, which is smooth: that of the faces it lies between. `normal`: that of the contact; `bent`: of the cloth;
+/// `sides`: signs of the faces that are near, 0 for the others.
+SHARED vec3 bent_way(vec3 normal, vec3 bent, vec3 sides) {
+    precise vec3 along = bent * sides;
+    vec3 between_faces =
+        vec3(along.x > 0.0f ? bent.x : 0.0f, along.y > 0.0f ? bent.y : 0.0f, along.z > 0.0f ? bent.z : 0.0f);
+    vec3 way = unit_of(between_faces);
+    return ordered_dot(way, normal) > least_cosine ? way : normal;
+}
+
+/// Lets a cut press along the normal of the cloth that bends over the edge; `direction`: the cloth's across it.
+SHARED BoxCut bent_cut(BoxCut cut, vec3 touching, vec3 direction) {
+    precise vec3 bent = cut.normal - direction * ordered_dot(cut.normal, direction);
+    vec3 sides = vec3(cut.normal.x == 0.0f ? 0.0f : touching.x, cut.normal.y == 0.0f ? 0.0f : touching.y,
+                      cut.normal.z == 0.0f ? 0.0f : touching.z);
+    return BoxCut(cut.normal, cut.depth, cut.shares, bent_way(cut.normal, bent, sides));
+}
+
 /// Finds how the box's edges alone cut an edge; where an end of the edge is as far inside, contact of particles leads
 /// it out.
-SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
+SHARED BoxCut edge_in_box(vec3 a, vec3 b, EdgeLine line, vec3 half_extents) {
     float known = larger_of(inside_faces(a, half_extents), inside_faces(b, half_extents));
     precise vec3 along = b - a;
     vec4 x = past_box_edge(vec2(a.y, a.z), vec2(along.y, along.z), vec2(half_extents.y, half_extents.z));
@@ -86,13 +139,14 @@ SHARED BoxCut edge_in_box(vec3 a, vec3 b, vec3 half_extents) {
     vec3 normal = x.z <= depth ? vec3(0.0f, x.x, x.y) : y.z <= depth ? vec3(y.y, 0.0f, y.x) : vec3(z.x, z.y, 0.0f);
     float share = x.z <= depth ? x.w : y.z <= depth ? y.w : z.w;
     precise float rest = 1.0f - share;
-    return BoxCut(normal, depth, vec3(rest, share, 0.0f));
+    precise vec3 touching = a + along * share;
+    return bent_cut(BoxCut(normal, depth, vec3(rest, share, 0.0f), normal), touching,
+                    direction_between(line.before, a, b, line.after));
 }
 
 /// A corner of the box past a triangle's plane counts as under the triangle up to this far beside it, in units of the
 /// triangle's weights. Otherwise it would slip through under an edge between two triangles; with the margin, contact
 /// moves that edge aside, and the corner is then under one of the triangles.
-/// the corner is under one of them.
 const float corner_margin = 0.2f;
 
 SHARED float not_below_zero(float x) { return x > 0.0f ? x : 0.0f; }
@@ -119,7 +173,7 @@ SHARED BoxCut corner_in_triangle(vec3 a, vec3 b, vec3 c, vec3 half_extents) {
     if (of_a < -corner_margin || of_b < -corner_margin || of_c < -corner_margin) return no_cut();
     vec3 inside = vec3(not_below_zero(of_a), not_below_zero(of_b), not_below_zero(of_c));
     precise vec3 shares = inside / (inside.x + inside.y + inside.z);
-    return BoxCut(normal, depth, shares);
+    return BoxCut(normal, depth, shares, normal);
 }
 
 /// Returns the point of a triangle at which the collider touches it.
@@ -128,45 +182,52 @@ SHARED vec3 touching_point(BoxCut cut, CutCorner a, CutCorner b, CutCorner c) {
     return touching;
 }
 
-/// Returns the depth at which contact leaves an edge that was at depth `before` when the substep began; 0 if it was
-/// outside. An overlap is resolved by `recovery` (m) per substep.
-SHARED float kept_depth(float before, float recovery) {
-    precise float kept = before - recovery;
-    return kept > 0.0f ? kept : 0.0f;
-}
+/// By how much a particle is moved, m.
+struct Taken {
+    vec3 by;    // local
+    float led;  // how much of it leads the particle out of an overlap in which it began the substep
+};
 
-/// Returns `taken` (m, local), by which the triangle's first corner has already been moved, extended by what a cut asks
-/// for beyond it. `surface`: displacement of the collider at the touching point, m, world frame.
-SHARED vec3 with_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
-                     vec3 surface, float recovery) {
+/// Returns `taken`, by which the triangle's first corner has already been moved, extended by what a cut asks for beyond
+/// it. `surface`: displacement of the collider at the touching point, m, world frame.
+SHARED Taken with_cut(Taken taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                      vec3 surface, float recovery) {
     precise float mobility = a.weight * cut.shares.x * cut.shares.x + b.weight * cut.shares.y * cut.shares.y +
                              c.weight * cut.shares.z * cut.shares.z;
     if (!(cut.depth > 0.0f) || !(mobility > 0.0f)) return taken;
     // As in collider_contact, a depth that existed when the substep began is resolved slowly.
     precise vec3 motion = a.displacement * cut.shares.x + b.displacement * cut.shares.y + c.displacement * cut.shares.z;
     precise vec3 relative = motion - surface;
-    precise float before = cut.depth + ordered_dot(world_direction(collider, cut.normal), relative);
+    precise float inward = -ordered_dot(world_direction(collider, cut.normal), relative);
+    precise float before = cut.depth - inward;
     // Cloth that leaves by one face must not be led to another one.
     vec3 way_out = vec3(collider.way_out.x, collider.way_out.y, collider.way_out.z);
     if (before > recovery && has_way_out(collider) && ordered_dot(cut.normal, way_out) < 0.5f) return taken;
-    precise float depth = cut.depth - kept_depth(before, recovery);
-    precise float asked = depth * a.weight * cut.shares.x / mobility - ordered_dot(taken, cut.normal);
+    float overlap = not_below_zero(before);
+    float leads = smaller_of(overlap, recovery);
+    precise float depth = cut.depth - overlap + leads;
+    if (!(depth > 0.0f)) return taken;
+    precise float share = a.weight * cut.shares.x / (mobility * ordered_dot(cut.way, cut.normal));
+    precise float asked = depth * share - ordered_dot(taken.by, cut.way);
     if (!(asked > 0.0f)) return taken;
-    precise vec3 sum = taken + cut.normal * asked;
-    return sum;
+    precise vec3 sum = taken.by + cut.way * asked;
+    precise float led = smaller_of(depth, leads) * share;
+    return Taken(sum, larger_of(taken.led, led));
 }
 
-SHARED vec3 with_box_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
-                         float recovery) {
+SHARED Taken with_box_cut(Taken taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                          float recovery) {
     vec3 surface = surface_displacement(collider, touching_point(cut, a, b, c));
     return with_cut(taken, cut, a, b, c, collider, surface, recovery);
 }
 
-/// Returns `taken` extended by everything that a triangle asks of its first corner.
-SHARED vec3 with_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider, float recovery) {
+/// Returns `taken` extended by everything that a triangle asks of its first corner; `to_b`, `to_c`: the lines of its
+/// edges from there.
+SHARED Taken with_triangle(Taken taken, CutCorner a, CutCorner b, CutCorner c, EdgeLine to_b, EdgeLine to_c,
+                           ColliderRecord collider, float recovery) {
     vec3 half_extents = vec3(collider.shape.x, collider.shape.y, collider.shape.z);
-    taken = with_box_cut(taken, edge_in_box(a.local, b.local, half_extents), a, b, c, collider, recovery);
-    taken = with_box_cut(taken, edge_in_box(a.local, c.local, half_extents), a, c, b, collider, recovery);
+    taken = with_box_cut(taken, edge_in_box(a.local, b.local, to_b, half_extents), a, b, c, collider, recovery);
+    taken = with_box_cut(taken, edge_in_box(a.local, c.local, to_c, half_extents), a, c, b, collider, recovery);
     return with_box_cut(taken, corner_in_triangle(a.local, b.local, c.local, half_extents), a, b, c, collider,
                         recovery);
 }
@@ -176,6 +237,38 @@ SHARED bool near_box_edge(vec3 local, vec3 half_extents, float reach) {
     precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
     int along = (beyond.x > -reach ? 1 : 0) + (beyond.y > -reach ? 1 : 0) + (beyond.z > -reach ? 1 : 0);
     return along >= 2 && beyond.x < reach && beyond.y < reach && beyond.z < reach;
+}
+
+/// Signs of a point's coordinates where the face on that side is within reach, otherwise 0.
+SHARED vec3 near_sides(vec3 local, vec3 half_extents, float reach) {
+    precise vec3 beyond = vec3(abs(local.x), abs(local.y), abs(local.z)) - half_extents;
+    return vec3(beyond.x > -reach ? local.x : 0.0f, beyond.y > -reach ? local.y : 0.0f,
+                beyond.z > -reach ? local.z : 0.0f);
+}
+
+/// A way that leads so little aside needs no step of its own.
+const float same_way = 0.995f;
+
+/// Returns the displacement of a particle near an edge of a box after contact along the cloth's normal. `across`:
+/// normal of the cloth, local, of either sign; `reach`: how far from an edge its links may bend over it, m.
+SHARED vec3 bent_contact(ColliderRecord collider, vec3 start, vec3 displacement, vec3 across, float reach,
+                         float thickness, float friction WITH_FIELDS) {
+    vec3 half_extents = size_of(collider);
+    float length = length_of(displacement);
+    if (has_way_out(collider) || goes_far(kind_box, half_extents, length, collider.way_out.w, thickness))
+        return displacement;
+    Contact plain = collider_contact(kind_box, collider, start, displacement, thickness, friction, 0.0f, false FIELDS);
+    if (!(plain.depth > 0.0f)) return displacement;
+    vec3 local = local_point(collider, moved_position(start, displacement));
+    vec3 normal = box_surface(local, half_extents).normal;
+    float side = ordered_dot(across, normal) < 0.0f ? -1.0f : 1.0f;
+    precise vec3 bent = across * side;
+    vec3 way = bent_way(normal, bent, near_sides(local, half_extents, reach));
+    float slope = ordered_dot(way, normal);
+    if (slope > same_way) return displacement;
+    precise float depth = plain.depth / slope;
+    vec3 surface = vec3(plain.grip.x, plain.grip.y, plain.grip.z);
+    return contact_displacement(displacement, surface, world_direction(collider, way), depth, plain.grip.w);
 }
 
 /// Returns the plane that touches a mesh where the mesh is nearest to a triangle's corner: normal (unit, outward,
@@ -189,10 +282,6 @@ SHARED vec3 normal_of(vec4 plane) { return vec3(plane.x, plane.y, plane.z); }
 
 /// Returns how deep (m) a corner is inside, 0 outside.
 SHARED float inside_plane(vec4 plane) { return plane.w < 0.0f ? -plane.w : 0.0f; }
-
-/// Planes lead out along their mean normal. If all of them are steeper against it than this cosine, the mesh is too
-/// sharp or too thin for its samples, and is ignored here.
-const float least_cosine = 0.3f;
 
 /// Returns a cut at `touching`, which is `depth` (m) below each of the planes found at the corners. `mean` is the mean
 /// of their normals, weighted by the shares in which they balance; contact of particles alone resolves the depth
@@ -210,7 +299,7 @@ SHARED BoxCut cut_of_planes(vec3 touching, float depth, vec3 mean, vec3 shares, 
     if (!(inside > known)) return no_cut();
     precise vec3 normal = mean / cosine;
     precise float way = inside / cosine;
-    return BoxCut(normal, way, shares);
+    return BoxCut(normal, way, shares, normal);
 }
 
 /// Finds how an edge of the mesh cuts an edge that leads into the mesh from both of its ends.
@@ -296,16 +385,16 @@ SHARED vec3 mesh_displacement(ColliderRecord collider, vec3 local WITH_FIELDS) {
     return all;
 }
 
-SHARED vec3 with_mesh_cut(vec3 taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
-                          float recovery WITH_FIELDS) {
+SHARED Taken with_mesh_cut(Taken taken, BoxCut cut, CutCorner a, CutCorner b, CutCorner c, ColliderRecord collider,
+                           float recovery WITH_FIELDS) {
     vec3 surface = mesh_displacement(collider, touching_point(cut, a, b, c) FIELDS);
     return with_cut(taken, cut, a, b, c, without_way_out(collider), surface, recovery);
 }
 
 /// Returns `taken` extended by everything that a triangle in contact with a mesh asks of its first corner, whose
 /// touching plane is given.
-SHARED vec3 with_mesh_triangle(vec3 taken, CutCorner a, CutCorner b, CutCorner c, vec4 at_a, ColliderRecord collider,
-                               float recovery WITH_FIELDS) {
+SHARED Taken with_mesh_triangle(Taken taken, CutCorner a, CutCorner b, CutCorner c, vec4 at_a, ColliderRecord collider,
+                                float recovery WITH_FIELDS) {
     if (!leads_below(a.local, b.local, at_a) && !leads_below(a.local, c.local, at_a)) return taken;
     ColliderRecord mesh = true_mesh(collider);
     vec4 at_b = touching_plane(b.local, mesh FIELDS);
@@ -325,15 +414,18 @@ SHARED bool near_mesh(vec3 local, vec4 plane, ColliderRecord collider, float rea
     return beyond.x < reach && beyond.y < reach && beyond.z < reach && abs(plane.w) < reach;
 }
 
-/// Returns the displacement of a particle after a collider has moved it by `taken` (m, local), with friction.
-/// `surface`: the collider's own displacement there, m, world frame.
-SHARED vec3 taken_displacement(vec3 displacement, vec3 taken, vec3 surface, ColliderRecord collider, float friction) {
-    float squared = ordered_dot(taken, taken);
+/// Returns the displacement of a particle after a collider has moved it, with friction. `surface`: the collider's own
+/// displacement there, m, world frame.
+SHARED vec3 taken_displacement(vec3 displacement, Taken taken, vec3 surface, ColliderRecord collider, float friction) {
+    float squared = ordered_dot(taken.by, taken.by);
     if (!(squared > 0.0f)) return displacement;
     float depth = sqrt(squared);
-    precise vec3 normal = taken / depth;
+    precise vec3 direction = taken.by / depth;
+    vec3 normal = world_direction(collider, direction);
     precise float pair_friction = friction * collider.shape.w;
-    return contact_displacement(displacement, surface, world_direction(collider, normal), depth, pair_friction);
+    precise vec3 led = displacement + normal * taken.led;
+    precise float pressed = depth - taken.led;
+    return contact_displacement(led, surface, normal, not_below_zero(pressed), pair_friction);
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "support/felt_energy.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
 #include "twin/twin.h"
@@ -25,28 +26,6 @@ SceneDescription bending_sheet(SolverMethod method, double compliance) {
     const double cell = 1.0 / 64, mass = cloth.areal_density * cell * cell;
     scene.time.fps = std::sqrt(compliance * rigidity / (cell * cell) / mass);
     return scene;
-}
-
-/// Bending energy (J) of the shape as one substep from rest feels it: its forces are F = m d/h^2 and, since they are
-/// linear in x, E = -1/2 sum x . F.
-double felt_energy(const SceneDescription& scene, const std::vector<Vec3>& shape) {
-    const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].scheme.compromises.empty());
-    EXPECT_EQ(model.cloths[0].scheme.used_bend, rigidity);
-    Twin twin(model);
-    TwinCloth& state = twin.cloth(0);
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-        glsl::vec4& x = state[Field::position][i];
-        x = {static_cast<float>(shape[i][0]), static_cast<float>(shape[i][1]), static_cast<float>(shape[i][2]), x.w};
-    }
-    twin.run_frame(1);
-    const double h = model.cloths[0].substep_length;
-    double energy = 0;
-    for (std::size_t i = 0; i < shape.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            energy -=
-                0.5 / (h * h) * shape[i][k] * test::mass_of(model.cloths[0], i) * test::displacement_of(state, i)[k];
-    return energy;
 }
 
 std::vector<Vec3> flat() {
@@ -70,7 +49,8 @@ TEST_P(SolverBending, IsAsStiffInEveryDirection) {
     const SceneDescription scene = bending_sheet(solver.method, solver.compliance);
     for (const double degrees : {0.0, 22.5, 45.0, 90.0, 135.0}) {
         const double curvature = 1, angle = degrees * std::numbers::pi / 180;
-        const double felt = felt_energy(scene, test::rolled(flat(), angle, curvature)) / (0.5 * rigidity * curvature);
+        const double felt =
+            test::felt_energy(scene, test::rolled(flat(), angle, curvature), flat()) / (0.5 * rigidity * curvature);
         std::printf("[ measured ] %s, m/(b h^2) %g: rigidity along %g degrees %.4f B\n", solver.name(),
                     solver.compliance, degrees, felt);
         // The axes' elements are missing in the half cells at the borders, the twist is missing nowhere.
@@ -84,7 +64,8 @@ TEST_P(SolverBending, TwistsAsThePlateOfPoissonsRatioZero) {
     std::vector<Vec3> saddle = flat();
     for (Vec3& at : saddle) at[2] = 0.5 * at[0] * at[1];
     // The energy is B/2 integral of 2 kxy^2 with kxy = 1/2.
-    const double felt = felt_energy(bending_sheet(solver.method, solver.compliance), saddle) / (rigidity * 0.25);
+    const double felt =
+        test::felt_energy(bending_sheet(solver.method, solver.compliance), saddle, flat()) / (rigidity * 0.25);
     std::printf("[ measured ] %s, m/(b h^2) %g: twist %.4f of the plate's\n", solver.name(), solver.compliance, felt);
     EXPECT_NEAR(felt, 1, solver.limit);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/felt_energy.h"
 #include "support/sheet_state.h"
 #include "support/sheets.h"
 #include "twin/twin.h"
@@ -41,28 +42,6 @@ std::vector<Vec3> unstrained() {
     for (int row = 0; row < 17; ++row)
         for (int column = 0; column < 17; ++column) shape.push_back({cell * column, cell * row, 0});
     return shape;
-}
-
-/// Energy (J) of a shape as one substep from rest feels it: its forces are F = m d/h^2 and grow in proportion to the
-/// displacement u, so E = -1/2 sum u . F.
-double energy_felt(const SceneDescription& scene, const std::vector<Vec3>& shape) {
-    const SimulationModel model(scene);
-    EXPECT_TRUE(model.cloths[0].scheme.compromises.empty());
-    Twin twin(model);
-    TwinCloth& state = twin.cloth(0);
-    const std::vector<Vec3> rest = unstrained();
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-        glsl::vec4& x = state[Field::position][i];
-        x = {static_cast<float>(shape[i][0]), static_cast<float>(shape[i][1]), static_cast<float>(shape[i][2]), x.w};
-    }
-    twin.run_frame(1);
-    const double h = model.cloths[0].substep_length;
-    double energy = 0;
-    for (std::size_t i = 0; i < shape.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            energy -= 0.5 / (h * h) * (shape[i][k] - rest[i][k]) * test::mass_of(model.cloths[0], i) *
-                      test::displacement_of(state, i)[k];
-    return energy;
 }
 
 /// The compliances of the sheet of square cells: its moduli are stretch + shear along the threads, shear across them,
@@ -102,8 +81,8 @@ TEST_P(FabricMethods, AStripIsAsStiffAsItsCutSays) {
         const double angle = degrees * std::numbers::pi / 180, expected = compliances.modulus(angle);
         const double tension = 3e-3 * expected;
         // Pulled and pushed by as much, so that what is of third order in the strain drops out.
-        const double felt = (energy_felt(scene, compliances.pulled(angle, tension)) +
-                             energy_felt(scene, compliances.pulled(angle, -tension))) /
+        const double felt = (test::felt_energy(scene, compliances.pulled(angle, tension), unstrained()) +
+                             test::felt_energy(scene, compliances.pulled(angle, -tension), unstrained())) /
                             2;
         const double modulus = tension * tension / (2 * felt);
         std::printf("[ measured ] %s, cut at %g degrees: %.2f of %.2f N/m\n", word(GetParam().method), degrees, modulus,
@@ -118,8 +97,8 @@ TEST_P(FabricMethods, AStripBendsAsItsCutSays) {
     for (const double degrees : {0.0, 22.5, 45.0, 67.5, 90.0, 135.0}) {
         const double curvature = 0.5, angle = degrees * std::numbers::pi / 180;
         const double c = std::pow(std::cos(angle), 2), s = std::pow(std::sin(angle), 2);
-        const double felt =
-            energy_felt(scene, test::rolled(unstrained(), angle, curvature)) / (0.5 * curvature * curvature);
+        const double felt = test::felt_energy(scene, test::rolled(unstrained(), angle, curvature), unstrained()) /
+                            (0.5 * curvature * curvature);
         // The threads' elements are missing in the half cells at the borders, the twist is missing nowhere.
         const double expected = (b.warp * c * c + b.weft * s * s) * 15 / 16 + 2 * b.twist * c * s;
         std::printf("[ measured ] %s, rolled along %g degrees: %.3e of %.3e N m\n", word(GetParam().method), degrees,

@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 constexpr const char* ordinary = R"({"cloths": [{"name": "sheet", "grid": [5, 5], "size": [1, 1], "areal_density": 0.2,
     "velocity": [0, 0, 0], "pins": [{"edge": "top", "path": [{"t": 0}, {"t": 2, "translate": [0, 1, 0]}]}]}],
-"colliders": {"boxes": [{"center": [0, -9, 0], "half_extents": [1, 1, 1]}],
+"colliders": {"boxes": [{"center": [0, -9000, 0], "half_extents": [1, 1, 1]}],
               "spheres": [{"center": [0, -9, 0], "radius": 1},
                           {"center": [0, -5, 0], "radius": 1, "path": [{"t": 0}, {"t": 2, "translate": [1, 0, 0]}]}]},
 "wind": {"velocity": [1, 0, 0]}, "camera": {"fov": 40, "position": [0, 0, 5], "target": [0, 0, 0]}})";
@@ -61,6 +61,27 @@ TEST(Doubts, ACutterInTheVeryPlaneOfAColumnIsWarnedOf) {
     ASSERT_EQ(warnings("0").size(), 1u);
     EXPECT_THAT(warnings("0")[0].text(),
                 testing::AllOf(HasSubstr("/cutters/0"), HasSubstr("17 particles of cloth \"cloth\" start exactly in")));
+}
+
+TEST(Doubts, AGridTooCoarseForTheEdgeOfABoxIsWarnedOf) {
+    // A square metre of cloth whose middle is at x lies on a box, or is held beside it.
+    const auto warnings = [](double thickness, double x, double half_box, const char* more) {
+        return read_scene_text(fmt::format(R"({{"cloths": [{{"grid": [41, 41], "size": [1, 1], "thickness": {},
+            "placement": {{"origin": [{}, 0.01, -0.5], "u": [1, 0, 0], "v": [0, 0, 1]}}{}}}],
+            "colliders": {{"boxes": [{{"center": [0, -1, 0], "half_extents": [{}, 1, 1]}}]}}}})",
+                                           thickness, x - 0.5, more, half_box),
+                               "o.json")
+            .warnings;
+    };
+    EXPECT_THAT(warnings(0.0051, 0, 0.3, ""), IsEmpty()) << "4.9 thicknesses";
+    ASSERT_EQ(warnings(0.0049, 0, 0.3, "").size(), 1u);
+    EXPECT_THAT(
+        warnings(0.0049, 0, 0.3, "")[0].text(),
+        testing::AllOf(HasSubstr("/cloths/0"), HasSubstr("0.025 m apart"), HasSubstr("0.0245 m, 5 thicknesses")));
+    EXPECT_THAT(warnings(0.002, 0, 2, ""), IsEmpty()) << "lies on the box's top";
+    EXPECT_THAT(warnings(0.002, 3, 0.3, ""), IsEmpty()) << "falls beside it";
+    EXPECT_EQ(warnings(0.002, 1.2, 0.3, R"(, "velocity": [-1, 0, 0])").size(), 1u) << "flies towards it";
+    EXPECT_EQ(warnings(0.002, 0.6, 0.3, R"(, "pins": [{"edge": "right"}])").size(), 1u) << "hangs over it";
 }
 
 }  // namespace

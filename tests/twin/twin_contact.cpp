@@ -37,18 +37,43 @@ struct ColliderEdges {
         return {local_point(collider, moved_position(xyz(start), moved)), moved, start.w};
     }
 
-    vec3 taken(ivec2 texel, const CutCorner& own, const ColliderRecord& collider, bool is_mesh) const {
-        vec3 taken{0, 0, 0};
+    /// Returns the place of a particle, or where the line from `far` through `end` goes on if there is none.
+    vec3 place_of(ivec2 texel, vec3 far, vec3 end, const ColliderRecord& collider) const {
+        const bool is_there = texel.x >= 0 && texel.y >= 0 && texel.x < push.grid.x && texel.y < push.grid.y;
+        return is_there ? corner_at(texel, collider).local : mirrored(far, end);
+    }
+
+    EdgeLine line_of(ivec2 from, ivec2 to, vec3 a, vec3 b, const ColliderRecord& collider) const {
+        return {place_of({2 * from.x - to.x, 2 * from.y - to.y}, b, a, collider),
+                place_of({2 * to.x - from.x, 2 * to.y - from.y}, a, b, collider)};
+    }
+
+    /// Returns the cloth's direction through a particle along an axis.
+    vec3 direction_at(ivec2 texel, ivec2 axis, vec3 local, const ColliderRecord& collider) const {
+        const ivec2 back{texel.x - axis.x, texel.y - axis.y}, on{texel.x + axis.x, texel.y + axis.y};
+        const vec3 before = place_of(back, place_of(on, local, local, collider), local, collider);
+        return direction_between(before, local, local, place_of(on, before, local, collider));
+    }
+
+    vec3 normal_across(ivec2 texel, vec3 local, const ColliderRecord& collider) const {
+        return unit_of(
+            ordered_cross(direction_at(texel, {1, 0}, local, collider), direction_at(texel, {0, 1}, local, collider)));
+    }
+
+    Taken taken(ivec2 texel, const CutCorner& own, const ColliderRecord& collider, bool is_mesh) const {
+        Taken taken{};
         const vec4 plane = is_mesh ? touching_plane(own.local, true_mesh(collider), fields) : vec4{};
         for_triangles_around(state.topology.grid(), texel, [&](ivec2 cell, int which) {
             const int corner = corner_of_triangle(which, {texel.x - cell.x, texel.y - cell.y});
             const auto other = [&](int step) {
                 const ivec2 offset = triangle_corner(which, (corner + step) % 3);
-                return corner_at({cell.x + offset.x, cell.y + offset.y}, collider);
+                return ivec2{cell.x + offset.x, cell.y + offset.y};
             };
-            taken = is_mesh
-                        ? with_mesh_triangle(taken, own, other(1), other(2), plane, collider, push.contact.w, fields)
-                        : with_triangle(taken, own, other(1), other(2), collider, push.contact.w);
+            const CutCorner b = corner_at(other(1), collider), c = corner_at(other(2), collider);
+            taken = is_mesh ? with_mesh_triangle(taken, own, b, c, plane, collider, push.contact.w, fields)
+                            : with_triangle(taken, own, b, c, line_of(texel, other(1), own.local, b.local, collider),
+                                            line_of(texel, other(2), own.local, c.local, collider), collider,
+                                            push.contact.w);
         });
         return taken;
     }
@@ -72,11 +97,17 @@ void run_collider_edges(const TwinPlace& where) {
                 const int kind = colliders[k].kind();
                 const vec3 local = local_point(collider, moved_position(xyz(start), moved));
                 if (start.w == 0.0f || !edges.near(kind, local, collider)) continue;
-                const vec3 taken = edges.taken({x, y}, {local, moved, start.w}, collider, kind == kind_mesh);
+                const Taken taken = edges.taken({x, y}, {local, moved, start.w}, collider, kind == kind_mesh);
                 const vec3 surface = kind == kind_mesh ? mesh_displacement(collider, local, edges.fields)
                                                        : surface_displacement(collider, local);
                 moved = taken_displacement(moved, taken, surface, collider, model.skin_of(i).y);
-                touched = touched || ordered_dot(taken, taken) > 0.0f;
+                touched = touched || ordered_dot(taken.by, taken.by) > 0.0f;
+                if (!step.after_edges || kind == kind_mesh) continue;
+                const vec3 bent =
+                    bent_contact(collider, xyz(start), moved, edges.normal_across({x, y}, local, collider),
+                                 edges.push.contact.x, model.skin_of(i).x, model.skin_of(i).y, edges.fields);
+                touched = touched || bent.x != moved.x || bent.y != moved.y || bent.z != moved.z;
+                moved = bent;
             }
             state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, touched ? 1.0f : 0.0f);
         }
