@@ -45,6 +45,11 @@ Momenta momentum_causes(const SimulationModel& model, std::size_t index) {
     const bool collides = !scene.colliders.empty(), meets = model.self_contact && scene.cloths.size() > 1;
     add("colliders", collides, collides);
     add("other cloths", meets, meets);
+    // Explicit steps pull along the links as they are; lines take back what they make, where the cloth keeps its turn.
+    const bool makes =
+        scene.solver.method == SolverMethod::relax || (scene.solver.method == SolverMethod::line && !cloth.turn);
+    add("solver", false, makes);
+    add("changes of the substeps", false, model.closed_loop());
     return momenta;
 }
 

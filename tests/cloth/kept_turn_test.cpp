@@ -1,10 +1,14 @@
 // Which turns of a cloth nothing but air hinders follows from its pins and gravity.
 #include "cloth/kept_turn.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
+#include "cloth/momentum_causes.h"
 #include "support/sheets.h"
 
 namespace drape {
@@ -90,6 +94,27 @@ TEST(KeptTurnTest, ClothInPiecesOrThatMayComeApartDoesNotTurnAsAWhole) {
     scene.cloths[0].holes.clear();
     scene.cloths[0].tear = Tear{.strain = 0.1};
     EXPECT_FALSE(turn_of_sheet(scene));
+}
+
+/// Says what may change the angular momentum of a free sheet in space.
+std::vector<std::string> causes(SolverMethod method, bool in_pieces = false) {
+    SceneDescription scene = test::sheet(9, 9, 1, 1, 3, 7);
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].damping = 0;
+    scene.cloths[0].pins.clear();
+    scene.colliders.clear();
+    scene.solver.method = method;
+    if (in_pieces) scene.cloths[0].holes = {{{3, 0}, {5, 8}}};
+    return momentum_causes(SimulationModel(scene), 0).angular_momentum_by;
+}
+
+TEST(MomentumCauses, OfAFreeSheetAreThoseOfItsMethod) {
+    using testing::ElementsAre;
+    EXPECT_THAT(causes(SolverMethod::explicit_steps), ElementsAre());
+    EXPECT_THAT(causes(SolverMethod::line), ElementsAre());
+    EXPECT_THAT(causes(SolverMethod::relax), ElementsAre("solver")) << "it loses a fifth in a second by 4 substeps";
+    EXPECT_THAT(causes(SolverMethod::line, true), ElementsAre("solver")) << "pieces have a turn each";
+    EXPECT_THAT(causes(SolverMethod::automatic), ElementsAre("changes of the substeps"));
 }
 
 }  // namespace
