@@ -77,16 +77,14 @@ TEST(EdgeCapstanTest, HoldsByTheLawForSpacingsOfOneToFiveThicknesses) {
         SolverMethod method;
         std::uint32_t substeps;
     };
-    for (const auto& [method, substeps] :
-         {Case{SolverMethod::line, 16}, Case{SolverMethod::line, 64}, Case{SolverMethod::relax, 32}})
+    for (const Case& each : {Case{SolverMethod::line, 16}, {SolverMethod::line, 64}, {SolverMethod::relax, 32}})
         for (const double thicknesses : {1.0, 2.0, 3.0, 4.0, 5.0}) {
-            // Relaxation leaves strips of so many cells slack.
-            if (method == SolverMethod::relax && thicknesses < 2) continue;
+            if (each.method == SolverMethod::relax && thicknesses < 2) continue;  // so many cells stay slack
             const auto moved = [&](double ratio) {
-                return slides(strip_over_edge(thicknesses, ratio, method, substeps));
+                return slides(strip_over_edge(thicknesses, ratio, each.method, each.substeps));
             };
-            EXPECT_LT(moved(0.85), 0.002) << int(method) << ", " << substeps << ", " << thicknesses;
-            EXPECT_GT(moved(1.15), 0.01) << int(method) << ", " << substeps << ", " << thicknesses;
+            EXPECT_LT(moved(0.85), 0.002) << int(each.method) << ", " << each.substeps << ", " << thicknesses;
+            EXPECT_GT(moved(1.15), 0.01) << int(each.method) << ", " << each.substeps << ", " << thicknesses;
         }
 }
 
