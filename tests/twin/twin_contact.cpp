@@ -43,9 +43,9 @@ struct ColliderEdges {
         return is_there ? corner_at(texel, collider).local : mirrored(far, end);
     }
 
-    EdgeLine line_of(ivec2 from, ivec2 to, vec3 a, vec3 b, const ColliderRecord& collider) const {
-        return {place_of({2 * from.x - to.x, 2 * from.y - to.y}, b, a, collider),
-                place_of({2 * to.x - from.x, 2 * to.y - from.y}, a, b, collider)};
+    EdgeLine line_of(ivec2 first, ivec2 last, vec3 a, vec3 b, const ColliderRecord& collider) const {
+        return {place_of({2 * first.x - last.x, 2 * first.y - last.y}, b, a, collider),
+                place_of({2 * last.x - first.x, 2 * last.y - first.y}, a, b, collider)};
     }
 
     /// Returns the cloth's direction through a particle along an axis.
