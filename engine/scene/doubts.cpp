@@ -177,9 +177,8 @@ void warn_of_edges(const SceneNode& cloths, const SceneDescription& scene) {
         const auto reaches = [&](const Collider& collider) { return may_reach_edge(cloth, collider, scene); };
         if (spacing <= takes || !std::ranges::any_of(scene.colliders, reaches)) continue;
         cloths.element(i).warn(fmt::format(
-            "particles of cloth \"{}\" are {:.3g} m apart, and the edge of a box takes at most {:.3g} m, {} "
-            "thicknesses: farther apart they are caught by it, or slip over it, as no friction makes cloth; a finer "
-            "grid, a larger thickness, or a capsule along the edge helps",
+            "particles of cloth \"{}\" are {:.3g} m apart: over the edge of a box cloth slides as its friction says "
+            "up to {:.3g} m, {} thicknesses; a finer grid, a larger thickness, or a capsule along the edge helps",
             cloth.name, spacing, takes, widest_at_edge));
     }
 }
