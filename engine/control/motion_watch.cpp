@@ -44,7 +44,8 @@ std::vector<std::string> MotionWatch::warnings() const {
     if (hasty_.frames > 0)
         all.push_back(fmt::format(
             "{} frames were kept in which the motion's error grew faster than solver.tolerance_motion allows, since "
-            "more substeps did not lessen it: {:.2g} times as fast at frame {}, the worst",
+            "more substeps did not lessen it, or positions were as far off before: {:.2g} times as fast at frame {}, "
+            "the worst",
             hasty_.frames, hasty_.times, hasty_.worst));
     if (parting_ && parting_->stands_on_a_point())
         all.push_back(fmt::format(

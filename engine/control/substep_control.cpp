@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "control/motion_error.h"
+
 namespace drape {
 
 namespace {
@@ -67,7 +69,7 @@ SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     contact_.rung = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
     if (attempt_.turned_back) return accept_unpredictable(judgement);
     if (judgement.sensitive) slack_ = std::max(slack_, sensitive_slack);
-    const double worst = std::max(judgement.excess(), judgement.motion / slack_);
+    const double worst = std::max(judgement.excess(), judgement.motion / motion_slack());
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
     if (worst <= 1 && lags(judgement)) {
         if (attempt_.lagged.substeps == 0) attempt_.lagged = {static_cast<double>(segment_.substeps), judgement.lag};
@@ -94,9 +96,17 @@ FailedAttempt SubstepControl::failure(const Judgement& judgement) const {
     const std::uint32_t substeps = segment_.substeps;
     if (!(judgement.watch <= 1)) return {substeps, Criterion::watch, judgement.watch};
     if (!(judgement.stretch <= 1)) return {substeps, Criterion::stretch, judgement.stretch};
-    if (!(judgement.motion / slack_ <= 1)) return {substeps, Criterion::motion, judgement.motion};
+    if (!(judgement.motion / motion_slack() <= 1)) return {substeps, Criterion::motion, judgement.motion};
     if (passes(judgement)) return {substeps, Criterion::passage, judgement.passage};
     return {substeps, Criterion::lag, judgement.lag};
+}
+
+/// Returns by what factor the motion's error may grow faster than its limit allows. An error that is k times what is
+/// allowed until now stays so while it grows k times as fast: finer steps take time and mend nothing. The companion's
+/// error is known within a factor, which is as much as is followed.
+double SubstepControl::motion_slack() const {
+    const double share = std::isnan(trend_.share) ? 0 : std::min(trend_.share, motion_error_confidence);
+    return std::max(slack_, share);
 }
 
 /// Returns whether, at the top rung, the motion alone fails, and a quarter of its substeps has not been tried to see
@@ -240,7 +250,7 @@ void SubstepControl::learn_order(const Judgement& judgement) {
 /// the motion's as attempts have shown. Where it hardly fell, the next attempt shows whether anything helps (futile).
 double SubstepControl::wanted_factor(const Judgement& judgement) const {
     constexpr double margin = 1.1, most = 4;
-    const double motion = judgement.motion / slack_;
+    const double motion = judgement.motion / motion_slack();
     double factor = margin * std::sqrt(judgement.excess());
     if (judgement.excess() <= 1 && attempt_.before.substeps > 0 && hardly_fell(judgement))
         factor = most * attempt_.before.substeps / segment_.substeps;
@@ -289,7 +299,7 @@ double SubstepControl::expected(const Judgement& judgement, std::size_t rung) co
     const double longer = static_cast<double>(ladder_.rungs[attempt_.rung]) / ladder_.rungs[rung];
     const double growth = std::max(judgement.coarse_stretch, 1e-12) / std::max(judgement.stretch, 1e-12);
     const double stretch = judgement.stretch * std::pow(std::max(growth, 1.0), std::log2(longer));
-    return std::max(judgement.motion / slack_ * std::pow(longer, probes_.order), stretch);
+    return std::max(judgement.motion / motion_slack() * std::pow(longer, probes_.order), stretch);
 }
 
 /// Goes down after a few easy probes, at once after a very easy one: as far as errors stay small, to a quarter of the

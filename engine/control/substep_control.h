@@ -105,6 +105,7 @@ class SubstepControl {
     void return_to_calm();
     Verdict accept_unpredictable(const Judgement& judgement);
     Verdict take_best(const Judgement& judgement);
+    double motion_slack() const;
     bool worth_looking_back(const Judgement& judgement) const;
     Verdict try_again_with(std::size_t rung);
     Verdict follow(double excess);

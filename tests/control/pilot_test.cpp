@@ -225,11 +225,18 @@ TEST(Pilot, OfAutoDoesAFrameAgainWhereItsErrorRises) {
         }
     }
     EXPECT_GT(flight.substeps[189], flight.substeps[70]);
-    double last = 0;
-    for (const FrameEffort& each : flight.efforts)
-        if (!std::isnan(each.motion_error)) last = each.motion_error;
-    EXPECT_GT(last, 0);
-    EXPECT_LE(last, 1.01 * motion_limit(model, 0));
+    // The rise goes unnoticed until the next probe. An error that is already k times what is allowed, 3 at most, may
+    // grow k times as fast as the limit says.
+    double share = 0;
+    std::size_t after = 0;
+    for (const FrameEffort& each : flight.efforts) {
+        if (!std::isnan(each.motion_error)) {
+            EXPECT_LE(each.motion_error, 1.01 * std::clamp(share, 1.0, 3.0) * motion_limit(model, 0));
+            after += each.motion_error > 0.1 * motion_limit(model, 0);
+        }
+        share = each.position_error / each.position_allowed;
+    }
+    EXPECT_GT(after, 0u);
 }
 
 TEST(Pilot, OfAutoRefusesWhatNoSubstepsReach) {
