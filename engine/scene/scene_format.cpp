@@ -120,8 +120,8 @@ const Object<WarpWeft> warp_weft{
 
 const Object<Rigidity> rigidity{
     "rigidity",
-    "Warp, weft and twist apart: a strip that is cut at the angle a to the warp bends with the rigidity warp cos^4 a + "
-    "weft sin^4 a + 2 twist sin^2 a cos^2 a.",
+    "Warp, weft and twist apart; where warp or weft is missing, that of the fabric or of the default holds. A strip "
+    "cut at the angle a to the warp bends with the rigidity warp cos^4 a + weft sin^4 a + 2 twist sin^2 a cos^2 a.",
     {
         {"warp", &Rigidity::warp, without_default(number(not_negative)), "N m along u, the rows."},
         {"weft", &Rigidity::weft, without_default(number(not_negative)), "N m along v, the columns."},
