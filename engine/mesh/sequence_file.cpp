@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -27,7 +28,11 @@ std::shared_ptr<const MeshSequence> read_both(const std::string& file, const std
         throw MeshError(fmt::format("expected an OBJ file, whose vertices have numbers, beside poses, got {}", file));
     input::MeshData mesh = input::read_obj(file);
     if (mesh.triangles.empty()) throw MeshError(fmt::format("expected triangles, {} has none", file));
-    for (Vec3& at : mesh.vertices) at = times(scale, at);
+    for (Vec3& at : mesh.vertices) {
+        at = times(scale, at);
+        for (const double x : at)
+            if (!(std::abs(x) < 1e15)) throw MeshError(fmt::format("expected finite coordinates, {} has {}", file, x));
+    }
     std::vector<std::uint32_t> places;
     const MeshShape form(mesh.vertices, std::move(mesh.triangles), shell, &places);
     std::vector<float> xyz = input::read_poses(poses, mesh.vertices.size()).xyz;
