@@ -1,6 +1,7 @@
 #include "input/array_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zip.h>
 
 #include <algorithm>

@@ -10,8 +10,8 @@
 
 #include "input/array_file.h"
 #include "input/file_source.h"
+#include "input/obj_file.h"
 #include "input/point_cache.h"
-#include "input/text_lines.h"
 
 namespace drape::input {
 
@@ -88,45 +88,17 @@ std::map<std::uint64_t, std::filesystem::path> numbered_files(const std::filesys
     return files;
 }
 
-std::vector<std::array<double, 3>> vertices_of(FileSource& file) {
-    Lines lines(file);
-    std::vector<std::array<double, 3>> vertices;
-    for (std::string_view line; lines.next(line);)
-        if ((line.starts_with("v ") || line.starts_with("v\t")) &&
-            !read_vertex(line.substr(1), vertices.emplace_back()))
-            throw unreadable(file.name(), fmt::format("line {} is no vertex of three numbers", lines.number()));
-    return vertices;
-}
-
 PointPoses obj_poses(const std::filesystem::path& path, std::size_t points) {
     const auto files = numbered_files(path);
     expect_room(path.string(), points, files.size());
     PointPoses poses{points, files.size(), {}};
     for (const auto& [number, name] : files) {
-        FileSource file(name);
-        const std::vector<std::array<double, 3>> vertices = vertices_of(file);
-        if (vertices.size() != points) throw of_another_mesh(file.name(), points, fmt::format("{}", vertices.size()));
+        const std::vector<std::array<double, 3>> vertices = read_obj_vertices(name);
+        if (vertices.size() != points) throw of_another_mesh(name.string(), points, fmt::format("{}", vertices.size()));
         for (const std::array<double, 3>& at : vertices)
             for (const double x : at) poses.xyz.push_back(static_cast<float>(x));
     }
     return poses;
-}
-
-/// Reads the corners of a face, "7", "7/1", "7//2" or "7/1/2" each; a negative one counts back from the last vertex.
-bool read_face(std::string_view line, std::size_t vertices, std::vector<std::uint32_t>& corners) {
-    corners.clear();
-    for (;;) {
-        line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
-        if (line.empty()) return corners.size() >= 3;
-        std::int64_t number = 0;
-        const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-        if (error != std::errc{}) return false;
-        const std::int64_t corner = number < 0 ? static_cast<std::int64_t>(vertices) + number : number - 1;
-        if (number == 0 || corner < 0 || corner >= static_cast<std::int64_t>(vertices)) return false;
-        corners.push_back(static_cast<std::uint32_t>(corner));
-        line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-        line.remove_prefix(std::min(line.find_first_of(" \t\r"), line.size()));
-    }
 }
 
 }  // namespace
@@ -137,25 +109,6 @@ PointCacheHead read_head(FileSource& file) {
         std::memcmp(head.signature, "POINTCACHE2", 12) != 0 || head.points < 0 || head.samples < 1)
         throw unreadable(file.name(), "it is no point cache (PC2) with a sample");
     return head;
-}
-
-ObjMesh read_obj(const std::filesystem::path& path) {
-    FileSource file(path);
-    Lines lines(file);
-    ObjMesh mesh;
-    std::vector<std::uint32_t> corners;
-    for (std::string_view line; lines.next(line);) {
-        const bool is_vertex = line.starts_with("v ") || line.starts_with("v\t");
-        const bool is_face = line.starts_with("f ") || line.starts_with("f\t");
-        if (is_vertex && !read_vertex(line.substr(1), mesh.vertices.emplace_back()))
-            throw unreadable(file.name(), fmt::format("line {} is no vertex of three numbers", lines.number()));
-        if (!is_face) continue;
-        if (!read_face(line.substr(1), mesh.vertices.size(), corners))
-            throw unreadable(file.name(), fmt::format("line {} is no face of vertices before it", lines.number()));
-        for (std::size_t k = 2; k < corners.size(); ++k)
-            mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
-    }
-    return mesh;
 }
 
 PointPoses read_poses(const std::filesystem::path& path, std::size_t points) {

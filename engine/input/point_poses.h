@@ -8,16 +8,6 @@
 
 namespace drape::input {
 
-/// The vertices (`v`) of an OBJ file in their order, and its faces as triangles: one with more corners is cut into a
-/// fan from its first one.
-struct ObjMesh {
-    std::vector<std::array<double, 3>> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-/// Throws OutputError naming the file and the line.
-ObjMesh read_obj(const std::filesystem::path& path);
-
 struct PointPoses {
     std::size_t points = 0, count = 0;
     std::vector<float> xyz;  ///< in the file's unit; pose by pose, point by point

@@ -8,8 +8,8 @@
 
 #include "input/array_file.h"
 #include "input/file_source.h"
+#include "input/obj_file.h"
 #include "input/point_cache.h"
-#include "input/text_lines.h"
 
 namespace drape::input {
 
@@ -96,18 +96,9 @@ Positions array_positions(const std::filesystem::path& path, const GridSize& gri
 }
 
 Positions mesh_vertices(const std::filesystem::path& path, const GridSize& grid, const PointCounts& counts) {
-    FileSource file(path);
-    Lines lines(file);
-    Positions positions;
-    std::uint64_t count = 0;
-    for (std::string_view line; lines.next(line);) {
-        if (!line.starts_with("v ") && !line.starts_with("v\t")) continue;
-        if (++count > grid.count()) continue;
-        if (!read_vertex(line.substr(1), positions.emplace_back()))
-            throw unreadable(file.name(), fmt::format("line {} is no vertex of three numbers", lines.number()));
-    }
-    if (!counts.allow(count))
-        throw of_another_shape(file.name(), grid, counts.text("vertices"), fmt::format("{}", count));
+    Positions positions = read_obj_vertices(path);
+    if (!counts.allow(positions.size()))
+        throw of_another_shape(path.string(), grid, counts.text("vertices"), fmt::format("{}", positions.size()));
     return positions;
 }
 

@@ -10,7 +10,7 @@
 
 namespace drape::input {
 
-/// Hands out the lines of a file, one after another.
+/// Hands out the lines of a file, one after another, without their ends (LF, CR LF, or CR) and a byte order mark.
 class Lines {
   public:
     /// The file must outlive it.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -11,9 +12,9 @@
 
 #include "base/vectors.h"
 #include "input/file_source.h"
+#include "input/obj_file.h"
 #include "input/point_poses.h"
 #include "mesh/mesh_error.h"
-#include "mesh/mesh_file.h"
 
 namespace drape {
 
@@ -25,11 +26,13 @@ std::shared_ptr<const MeshSequence> read_both(const std::string& file, const std
                                               std::optional<double> shell) {
     if (input::extension_of(file) != ".obj")
         throw MeshError(fmt::format("expected an OBJ file, whose vertices have numbers, beside poses, got {}", file));
-    input::ObjMesh mesh = input::read_obj(file);
+    input::MeshData mesh = input::read_obj(file);
     if (mesh.triangles.empty()) throw MeshError(fmt::format("expected triangles, {} has none", file));
-    if (mesh.triangles.size() > mesh_triangle_limit)
-        throw MeshError(fmt::format("expected at most {} triangles, {} has more", mesh_triangle_limit, file));
-    for (Vec3& at : mesh.vertices) at = times(scale, at);
+    for (Vec3& at : mesh.vertices) {
+        at = times(scale, at);
+        for (const double x : at)
+            if (!(std::abs(x) < 1e15)) throw MeshError(fmt::format("expected finite coordinates, {} has {}", file, x));
+    }
     std::vector<std::uint32_t> places;
     const MeshShape form(mesh.vertices, std::move(mesh.triangles), shell, &places);
     std::vector<float> xyz = input::read_poses(poses, mesh.vertices.size()).xyz;

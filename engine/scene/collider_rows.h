@@ -76,9 +76,9 @@ inline const Object<Collider> capsule{
 
 inline const Object<Collider> mesh{
     "mesh",
-    "A triangle mesh from a file, OBJ, PLY, STL or glTF, of at most 4 million triangles and 256 MiB: the solid body "
-    "that "
-    "a closed surface bounds, parts that overlap being one, or a shell. Contact knows its distance at the points of a "
+    "A triangle mesh from a file, OBJ, PLY, STL or glTF 2 (uncompressed), of at most 4 million triangles and 256 MiB, "
+    "in single precision: the solid body that a closed surface bounds, parts that overlap being one, or a shell. "
+    "Contact knows its distance at the points of a "
     "lattice and interpolates between them. Its centre is the middle of its bounding box.",
     keys_of<Mesh>({
         {"file", &Mesh::file, text(), "A relative name is looked for as a cloth's start is.", "the name of a file"},

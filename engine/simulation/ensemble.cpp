@@ -12,6 +12,7 @@
 #include "simulation/contact_report.h"
 #include "simulation/device_parts.h"
 #include "simulation/member_frames.h"
+#include "simulation/state_checksum.h"
 
 namespace drape {
 
@@ -163,6 +164,7 @@ SimulationState Ensemble::save(std::size_t number) const {
     MemberMotion motion(member.model);
     transfer(writer, member, motion);  // when writing, transfer changes nothing
     state[member_part] = writer.take();
+    seal(state);
     return state;
 }
 
@@ -174,6 +176,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
     std::vector<MemberMotion> motions;
     for (std::size_t k = 0; k < members.size(); ++k) {
         const Member& member = *parts_->members[members[k]];
+        expect_sealed(states[k]);
         const auto part = states[k].find(member_part);
         if (part == states[k].end()) throw Error("the saved state is not of an ensemble's member");
         progress.emplace_back().watch = std::make_unique<Watch>(member.model);

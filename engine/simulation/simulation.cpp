@@ -21,6 +21,7 @@
 #include "simulation/frame_server.h"
 #include "simulation/member_state.h"
 #include "simulation/scene_checks.h"
+#include "simulation/state_checksum.h"
 #include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
 
@@ -343,10 +344,12 @@ SimulationState Simulation::save() const {
     state[watch_part] = written(parts_->watch);
     state[passages_part] = written(parts_->passages);
     state[motion_part] = written(parts_->motion);
+    seal(state);
     return state;
 }
 
 void Simulation::restore(const SimulationState& state) {
+    expect_sealed(state);
     ByteReader watch = checked_part<Watch>(state, watch_part, parts_->model);
     ByteReader passages = checked_part<PassageWatch>(state, passages_part, parts_->model);
     ByteReader motion = checked_part<MotionWatch>(state, motion_part, parts_->model);

@@ -8,6 +8,7 @@
 
 #include "drape/simulation.h"
 #include "library_device.h"
+#include "simulation/state_checksum.h"
 
 namespace drape {
 namespace {
@@ -286,6 +287,7 @@ TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
         without.erase(name);
         shorter[name].resize(bytes.size() - 1);
         longer[name].resize(bytes.size() + 1);
+        for (SimulationState* const wrong : {&without, &shorter, &longer}) seal(*wrong);
         if (!name.starts_with("cuts/")) {
             EXPECT_THROW(simulation_of(cut_by_auto).restore(without), Error) << name;
         }
@@ -294,10 +296,42 @@ TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {
     }
 }
 
+TEST_F(SimulationStateGuard, DamageIsRefusedAndChangesNothing) {
+    const auto error_of = [](Simulation& simulation, const SimulationState& state) {
+        try {
+            simulation.restore(state);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("taken");
+    };
+    Simulation simulation(parse_scene(by_lines), {}, library_device());
+    for (int frame = 0; frame < 3; ++frame) simulation.step();
+    const SimulationState state = simulation.save();
+    const char* const damaged = "the saved state is damaged: its checksum does not fit";
+    for (const auto& [name, bytes] : state) {
+        SimulationState flipped = state, without = state, other_name = state;
+        if (!bytes.empty()) flipped[name][bytes.size() / 2] ^= std::byte{1};
+        without.erase(name);
+        other_name[name + "'"] = bytes;
+        if (!bytes.empty()) {
+            EXPECT_EQ(error_of(simulation, flipped), damaged) << name;
+        }
+        EXPECT_EQ(error_of(simulation, without),
+                  name == "checksum"
+                      ? "the saved state has no checksum: it is damaged, or was saved before states had one"
+                      : damaged);
+        EXPECT_EQ(error_of(simulation, other_name), damaged) << name;
+        EXPECT_EQ(simulation.save(), state) << name;
+    }
+    EXPECT_EQ(error_of(simulation, state), "taken");
+}
+
 /// Returns a state with another number at `place` of the part `loop` (engine/docs/checkpoint.md): 0: next frame, 4:
 /// substeps, 8: first frame not simulated.
 SimulationState with_number(SimulationState state, std::size_t place, std::uint32_t number) {
     std::memcpy(state.at("loop").data() + place, &number, sizeof number);
+    seal(state);
     return state;
 }
 
@@ -381,6 +415,7 @@ TEST_F(SimulationStateGuard, ASleeperWithoutTheFrameThatItRepeatsIsRefused) {
         SimulationState without = state;
         without.at("loop").resize(place + 1);
         without.at("loop")[place] = std::byte{0};
+        seal(without);
         try {
             other.restore(without);
         } catch (const Error&) {

@@ -179,7 +179,10 @@ TEST_F(MeshSequenceFileTest, WhatIsWrongIsSaid) {
               "expected an OBJ file, whose vertices have numbers, beside poses, got " + folder + "body.stl");
     std::ofstream(folder + "bad_face.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n";
     EXPECT_EQ(text_of([&] { read_sequence(folder + "bad_face.obj", cache_file(poses, "sequence.pc2"), 1, {}); }),
-              "cannot read '" + folder + "bad_face.obj': line 4 is no face of vertices before it");
+              "cannot read '" + folder + "bad_face.obj': line 4 is no face of vertices that are there");
+    std::ofstream(folder + "far.obj") << "v 0 0 0\nv 1e200 0 0\nv 0 1 0\nf 1 2 3\n";
+    EXPECT_EQ(text_of([&] { read_sequence(folder + "far.obj", cache_file(poses, "sequence.pc2"), 1, {}); }),
+              "expected finite coordinates, " + folder + "far.obj has 1e+200");
 }
 
 }  // namespace

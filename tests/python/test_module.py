@@ -335,6 +335,8 @@ class Ensembles(Validated):
         np.testing.assert_array_equal(together.positions()[1], frames[2])
         with self.assertRaises(drape.Error):
             together.restore([0], [{"member": b"nonsense"}])
+        with self.assertRaisesRegex(drape.Error, "its checksum does not fit"):
+            together.restore([0], [{**saved, "loop": saved["loop"][::-1]}])
 
     def test_a_mask_says_which_members_go_back(self):
         together = self.ensemble(sheet(), 3)
