@@ -211,13 +211,15 @@ bool SubstepControl::is_calm_at(std::size_t rung, double share, double stretch) 
 }
 
 /// Goes below the substeps that a swing needs, to the companion's at most, while the companion shows that the error
-/// stays far below its limit; goes back to them where it does not, or where nothing is known.
+/// stays far below its limit; goes back to them where it does not, or where nothing is known. The error of a motion
+/// that has just begun grows ever faster, so nothing is expected of it while its growth rises.
 void SubstepControl::follow_calm(const Trend& trend) {
     const double stretch = std::exchange(calm_.stretch, 0.0);
     if (std::isnan(trend.growth)) return return_to_calm();
     calm_.growth = std::max(trend.growth, calm_.growth * calm_kept);
-    if (std::max(stretch, trend.share) > comfort || calm_.growth > 1) return_to_calm();
-    if (calm_.frames < calm_.wait * probe_length_ || rung_ > ladder_.calm) return;
+    if (std::max(stretch, trend.share) > comfort || calm_.growth > 1) return return_to_calm();
+    const bool shown = calm_.frames >= calm_.wait * probe_length_ && trend.growth <= trend_.growth;
+    if (!shown || rung_ > ladder_.calm) return;
     const std::uint32_t beside = companion_substeps(ladder_.method, ladder_.rungs[rung_]);
     std::size_t rung = rung_;
     while (rung > ladder_.lowest && ladder_.rungs[rung - 1] >= beside && is_calm_at(rung - 1, trend.share, stretch))

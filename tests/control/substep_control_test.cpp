@@ -272,6 +272,17 @@ TEST(SubstepControl, LongSubstepsAreThoseOfTheCompanionAtMost) {
     EXPECT_EQ(loop.begin(6, false).substeps, 2u);
 }
 
+TEST(SubstepControl, SubstepsStayThoseOfASwingWhileTheErrorGrowsEverFaster) {
+    SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
+    double growth = 1e-4;
+    for (int tenth = 0; tenth < 20; ++tenth, growth *= 1.2) {
+        fly(loop, 1, [&](std::uint32_t) { return Trend{growth, growth}; });
+        EXPECT_EQ(loop.begin(6, false).substeps, 12u);
+    }
+    fly(loop, 2, [&](std::uint32_t) { return Trend{growth, growth}; });
+    EXPECT_LT(loop.begin(6, false).substeps, 12u);
+}
+
 TEST(SubstepControl, AnErrorThatComesNearerEndsLongSubsteps) {
     const auto small = [](std::uint32_t) { return Trend{0.01, 0.01}; };
     for (const Trend& large : {Trend{0.7, 0.1}, Trend{0.1, 1.1}}) {
