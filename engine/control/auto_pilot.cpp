@@ -54,8 +54,7 @@ void AutoPilot::begin() {
         attempt_.phase = Phase::asleep;
         return;
     }
-    const Segment& segment = control_.begin(probe_room(model_, simulated_), drive_.eventful(simulated_));
-    if (segment.probes) drive_.probed(simulated_, segment.frame_count);
+    control_.begin(probe_room(model_, simulated_), drive_.eventful(simulated_));
     kept_.effort.attempts = 0;
     begin_attempt();
 }
@@ -270,6 +269,7 @@ void AutoPilot::refuse() {
 
 void AutoPilot::keep() {
     const Segment& segment = control_.segment();
+    if (segment.probes) drive_.probed(kept_.first, segment.frame_count);
     for (const std::vector<ClothStatistics>& cloths : kept_.statistics) sleep_.saw(cloths, segment.substeps);
     before_ = kept_.statistics.back();
     history_in(histories_, StateSet::run) = segment.substeps;

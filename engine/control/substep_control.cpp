@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/companions.h"
 #include "control/motion_error.h"
 
 namespace drape {
@@ -21,10 +22,9 @@ constexpr double most_lag_followed = 3;
 constexpr double comfort = 0.6;
 /// Fewer substeps are tried without waiting where the errors are below this share of `comfort`.
 constexpr double very_easy = 0.2;
-/// Probes' times without an event until substeps may be longer than a swing needs, since an error of its speed takes as
-/// long to show; the share of such an error below which they become longer; what is left of a growth of the error from
-/// one comparison to the next (1/e in half a second), since two runs of a swing meet now and then.
-constexpr std::uint32_t calm_after = 5;
+/// Substeps longer than a swing needs are tried where the share of the error is below half of `comfort`. Of the error's
+/// growth so much is left from one comparison to the next (1/e in half a second), since two runs of a swing meet now
+/// and then.
 constexpr double calm_comfort = 0.3, calm_kept = 0.82;
 /// Where more substeps do not reduce the motion's error, fewer substeps are used as long as they increase it by less
 /// than this factor.
@@ -36,7 +36,7 @@ constexpr double sensitive_slack = 3;
 
 SubstepControl::SubstepControl(const Method& method, std::uint32_t proposed, const Floors& floors,
                                std::uint32_t probe_length)
-    : ladder_{substep_rungs(method), method.trust == Method::Trust::resolves, 0, 0, 0}, probe_length_(probe_length) {
+    : ladder_{method, substep_rungs(method), 0, 0, 0}, probe_length_(probe_length) {
     ladder_.lowest = rung_of(floors.least);
     ladder_.calm = std::max(ladder_.lowest, rung_of(floors.calm));
     ladder_.proposed = std::max(ladder_.calm, rung_of(proposed));
@@ -54,23 +54,24 @@ const Segment& SubstepControl::begin(std::uint32_t room, bool eventful) {
         probes_.interval = 1;
         probes_.until = 0;
         return_to_calm();
-        calm_.came_back = false;
+        calm_.wait = calm_after;
     }
     const std::size_t wanted = eventful ? std::min(rung_ + 2, ladder_.rungs.size() - 1) : rung_;
-    const bool probes = probes_.until == 0 && room >= 2 && !ladder_.resolves;
-    attempt_ = {.began = rung_, .rung = std::max(wanted, contact_.rung), .needed = ladder_.lowest};
+    attempt_ = {.room = room, .began = rung_, .rung = std::max(wanted, contact_.rung), .needed = ladder_.lowest};
+    const bool probes = probes_.until == 0 && can_probe();
     segment_ = {ladder_.rungs[attempt_.rung], probes ? std::min(room, probe_length_) : 1, probes};
     return segment_;
 }
 
 SubstepControl::Verdict SubstepControl::judge(const Judgement& judgement) {
     if (lags_alike(judgement)) contact_.until_lag = lag_pause * probe_length_;
-    const double lag = contact_.until_lag == 0 ? judgement.lag : 0;
+    const double lag = contact_.until_lag == 0 && !can_probe() ? judgement.lag : 0;
     contact_.rung = rung_of(std::max(judgement.passage, lag) * segment_.substeps);
     if (attempt_.turned_back) return accept_unpredictable(judgement);
     if (judgement.sensitive) slack_ = std::max(slack_, sensitive_slack);
     const double worst = std::max(judgement.excess(), judgement.motion / motion_slack());
     if (worst <= 1 && passes(judgement)) return follow(judgement.passage);
+    if (worst <= 1 && lags(judgement) && can_probe()) return probe_instead();
     if (worst <= 1 && lags(judgement)) {
         if (attempt_.lagged.substeps == 0) attempt_.lagged = {static_cast<double>(segment_.substeps), judgement.lag};
         return follow(std::min(judgement.lag, most_lag_followed));
@@ -121,10 +122,20 @@ bool SubstepControl::passes(const Judgement& judgement) const {
     return judgement.passage > 1 && !at_top() && attempt_.top_motion == 0;
 }
 
-/// Returns whether truncation held a particle back that more substeps would let move on.
+/// Returns whether truncation held a particle back, or angular momentum was made, by so much that the motion may be
+/// wrong. A probe measures how wrong it is, so there lags are none.
 bool SubstepControl::lags(const Judgement& judgement) const {
-    return judgement.lag > 1 && !at_top() && attempt_.top_motion == 0 && contact_.until_lag == 0 &&
+    return judgement.lag > 1 && !segment_.probes && !at_top() && attempt_.top_motion == 0 && contact_.until_lag == 0 &&
            !lags_alike(judgement);
+}
+
+/// Does the frame again as the first of a probe with as many substeps, which tells by how much a lag makes the motion
+/// wrong.
+SubstepControl::Verdict SubstepControl::probe_instead() {
+    segment_.frame_count = std::min(attempt_.room, probe_length_);
+    segment_.probes = true;
+    probes_.interval = 1;
+    return Verdict::again;
 }
 
 /// Returns whether more substeps have hardly reduced the segment's lag, by less than their square root: springs press
@@ -183,33 +194,46 @@ SubstepControl::Verdict SubstepControl::take_best(const Judgement& judgement) {
 }
 
 void SubstepControl::accumulated(const Trend& trend) {
-    if (ladder_.resolves)
+    if (resolves())
         follow_share(trend.share);
     else
         follow_calm(trend);
     trend_ = trend;
 }
 
-/// Takes the substeps that a swing needs at least. Every change of the substeps shakes cloth at rest a little, so it
-/// goes below them once between two events.
+/// Takes the substeps that a swing needs at least. Every change of the substeps shakes cloth a little, so after each
+/// return until the next event it waits twice as long before it goes below them again.
 void SubstepControl::return_to_calm() {
-    const bool came_back = calm_.came_back || rung_ < ladder_.calm;
+    const std::uint32_t wait = rung_ < ladder_.calm ? std::min(2 * calm_.wait, longest_calm) : calm_.wait;
     rung_ = std::max(rung_, ladder_.calm);
-    calm_ = {.came_back = came_back};
+    calm_ = {.wait = wait};
 }
 
-/// Goes below the substeps that a swing needs, a rung at a time, while the companion shows that the error stays far
-/// below its limit; goes back to them where it does not, or where nothing is known.
+/// Returns whether a lower rung, not below the companion's substeps, is expected to keep far from the limits. The
+/// companion's distance is that of a run with its substeps, and the error was derived from it by the least order of
+/// convergence: between the two runs no higher order makes the error larger. What a tenth of a second adds is bounded
+/// by the limit, which gives it more room than what has been added since the start.
+bool SubstepControl::is_calm_at(std::size_t rung, double share, double stretch) const {
+    const double longer = static_cast<double>(ladder_.rungs[rung_]) / ladder_.rungs[rung];
+    const double grows = std::pow(longer, error_order(ladder_.method, true));
+    return std::max(share * grows, stretch * longer * longer) < calm_comfort && calm_.growth * grows < comfort;
+}
+
+/// Goes below the substeps that a swing needs, to the companion's at most, while the companion shows that the error
+/// stays far below its limit; goes back to them where it does not, or where nothing is known. The error of a motion
+/// that has just begun grows ever faster, so nothing is expected of it while its growth rises.
 void SubstepControl::follow_calm(const Trend& trend) {
     const double stretch = std::exchange(calm_.stretch, 0.0);
     if (std::isnan(trend.growth)) return return_to_calm();
     calm_.growth = std::max(trend.growth, calm_.growth * calm_kept);
-    const double error = std::max({stretch, trend.share, calm_.growth});
-    if (error > comfort) return_to_calm();
-    const bool shown = calm_.frames >= calm_after * probe_length_ && !calm_.came_back;
-    if (!shown || rung_ > ladder_.calm || rung_ == ladder_.lowest) return;
-    const double longer = static_cast<double>(ladder_.rungs[rung_]) / ladder_.rungs[rung_ - 1];
-    if (error * longer * longer < calm_comfort) --rung_;
+    if (std::max(stretch, trend.share) > comfort || calm_.growth > 1) return return_to_calm();
+    const bool shown = calm_.frames >= calm_.wait * probe_length_ && trend.growth <= trend_.growth;
+    if (!shown || rung_ > ladder_.calm) return;
+    const std::uint32_t beside = companion_substeps(ladder_.method, ladder_.rungs[rung_]);
+    std::size_t rung = rung_;
+    while (rung > ladder_.lowest && ladder_.rungs[rung - 1] >= beside && is_calm_at(rung - 1, trend.share, stretch))
+        --rung;
+    rung_ = rung;
 }
 
 /// Without probes the companion alone shows whether the motion needs more substeps than the method's law proposed.
@@ -290,6 +314,7 @@ void SubstepControl::succeed(const Judgement& judgement) {
     // The companion notices what happens between probes, so few probes are enough far from the limit.
     constexpr double far = 0.3;
     probes_.interval = std::min((trend_.share < far ? 4 : 2) * probes_.interval, longest_interval);
+    if (judgement.lag > 1) contact_.until_lag = probes_.until;  // the probe found the motion right in spite of it
     consider_fewer(judgement);
 }
 

@@ -88,11 +88,16 @@ class SubstepControl {
         archive(rung_, slack_, segment_.substeps, segment_.frame_count, segment_.probes, probes_.interval,
                 probes_.until, probes_.order, probes_.last.substeps, probes_.last.motion, easing_.since_fewer,
                 easing_.patience, easing_.easy, contact_.rung, contact_.until_lag, trend_.share, trend_.growth,
-                calm_.frames, calm_.stretch, calm_.growth, calm_.came_back);
-        return std::max(rung_, contact_.rung) < ladder_.rungs.size() && rung_ >= ladder_.lowest;
+                calm_.frames, calm_.stretch, calm_.growth, calm_.wait);
+        return calm_.wait >= calm_after && calm_.wait <= longest_calm &&
+               std::max(rung_, contact_.rung) < ladder_.rungs.size() && rung_ >= ladder_.lowest;
     }
 
   private:
+    /// Returns whether the method needs no probe.
+    bool resolves() const { return ladder_.method.trust == Method::Trust::resolves; }
+    bool can_probe() const { return attempt_.room >= 2 && !resolves(); }
+    Verdict probe_instead();
     std::size_t rung_of(double substeps) const;
     bool passes(const Judgement& judgement) const;
     bool lags(const Judgement& judgement) const;
@@ -101,6 +106,7 @@ class SubstepControl {
     bool futile(const Judgement& judgement) const;
     double wanted_factor(const Judgement& judgement) const;
     void follow_share(double share);
+    bool is_calm_at(std::size_t rung, double share, double stretch) const;
     void follow_calm(const Trend& trend);
     void return_to_calm();
     Verdict accept_unpredictable(const Judgement& judgement);
@@ -118,8 +124,8 @@ class SubstepControl {
     void consider_fewer(const Judgement& judgement);
 
     struct Ladder {
+        const Method& method;
         std::span<const std::uint32_t> rungs;
-        bool resolves;  ///< the method needs no probe
         std::size_t lowest, calm, proposed;
     } ladder_;
     std::uint32_t probe_length_;
@@ -133,6 +139,7 @@ class SubstepControl {
     };
     /// This is known of the attempts at the segment.
     struct Attempt {
+        std::uint32_t room = 0;  ///< how many frames a probe may have
         std::size_t began = 0;   ///< the rung before the segment began
         std::size_t rung = 0;    ///< of the current attempt
         std::size_t needed = 0;  ///< the lowest rung that keeps the segment's stretch
@@ -163,11 +170,13 @@ class SubstepControl {
                       easy = 0;  ///< easy probes required before the substeps go down, and their count so far
     } easing_;
     Trend trend_ = {};  ///< at the last comparison
+    /// Two comparisons with the companion show whether the error's growth rises.
+    static constexpr std::uint32_t calm_after = 2, longest_calm = 1024;
     struct Calm {
-        std::uint32_t frames = 0;  ///< since the start, an event, or an error that was too large
-        double stretch = 0;        ///< the worst since the last comparison
-        double growth = 0;         ///< of the error, held for a while
-        bool came_back = false;    ///< since an event, the substeps went below those of a swing and had to come back
+        std::uint32_t frames = 0;         ///< since the start, an event, or an error that was too large
+        double stretch = 0;               ///< the worst since the last comparison
+        double growth = 0;                ///< of the error, held for a while
+        std::uint32_t wait = calm_after;  ///< probes' times until the substeps may go below those of a swing
     } calm_;
 };
 

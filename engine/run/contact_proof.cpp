@@ -93,7 +93,8 @@ std::optional<std::string> held_back(const Simulation& simulation) {
         "motion; {}",
         told->lagging_frames, told->lagging_frames == 1 ? "" : "s", *told->first_lagging, told->lag_limit,
         told->longest_lag,
-        simulation.facts().limits_are_kept ? "substeps could not help" : "more substeps, or method auto, may help");
+        simulation.facts().limits_are_kept ? "method auto counts that as error of the motion"
+                                           : "more substeps may help");
 }
 
 std::optional<std::string> still_crossed(const Simulation& simulation) {

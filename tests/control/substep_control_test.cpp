@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cloth/companions.h"
+
 namespace drape {
 namespace {
 
@@ -250,8 +252,8 @@ TEST(SubstepControl, SubstepsLongerThanASwingNeedsAreTakenWhereTheErrorIsFarBelo
             const double error = std::pow(needed / n, 2);
             return Trend{error, error};
         };
-        fly(loop, 4, shown);
-        EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "an error of a swing's speed takes as long to show";
+        fly(loop, 1, shown);
+        EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "one comparison shows no growth that rises";
         fly(loop, 40, shown);
         const std::uint32_t calm = loop.begin(6, false).substeps;
         EXPECT_GE(calm, std::min(needed, 12.0));
@@ -261,21 +263,52 @@ TEST(SubstepControl, SubstepsLongerThanASwingNeedsAreTakenWhereTheErrorIsFarBelo
     }
 }
 
-TEST(SubstepControl, AnErrorThatComesNearerEndsLongSubsteps) {
+TEST(SubstepControl, LongSubstepsAreThoseOfTheCompanionAtMost) {
     SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
-    const Trend small{0.01, 0.01};
-    fly(loop, 20, [&](std::uint32_t) { return small; });
-    ASSERT_EQ(loop.begin(6, false).substeps, 2u);
-    fly(loop, 1, [&](std::uint32_t) { return Trend{0.1, 0.7}; });
-    EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "it grows";
-    fly(loop, 40, [&](std::uint32_t) { return small; });
-    EXPECT_EQ(loop.begin(6, false).substeps, 12u) << "no cycle of coming and going shakes cloth at rest";
-    EXPECT_GE(loop.begin(6, true).substeps, 12u) << "the scene tells of something";
-    EXPECT_EQ(loop.judge({.stretch = 0.1}), Verdict::keep);
-    loop.accumulated(small);
-    fly(loop, 40, [&](std::uint32_t) { return small; });
+    const auto shown = [](std::uint32_t) { return Trend{1e-4, 1e-4}; };
+    fly(loop, 2, shown);
+    EXPECT_EQ(loop.begin(6, false).substeps, companion_substeps(row_of(SolverMethod::line), 12));
+    fly(loop, 1, shown);
     EXPECT_EQ(loop.begin(6, false).substeps, 2u);
-    EXPECT_GE(loop.begin(6, true).substeps, 12u) << "the scene tells of something again";
+}
+
+TEST(SubstepControl, SubstepsStayThoseOfASwingWhileTheErrorGrowsEverFaster) {
+    SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
+    double growth = 1e-4;
+    for (int tenth = 0; tenth < 20; ++tenth, growth *= 1.2) {
+        fly(loop, 1, [&](std::uint32_t) { return Trend{growth, growth}; });
+        EXPECT_EQ(loop.begin(6, false).substeps, 12u);
+    }
+    fly(loop, 2, [&](std::uint32_t) { return Trend{growth, growth}; });
+    EXPECT_LT(loop.begin(6, false).substeps, 12u);
+}
+
+TEST(SubstepControl, AnErrorThatComesNearerEndsLongSubsteps) {
+    const auto small = [](std::uint32_t) { return Trend{0.01, 0.01}; };
+    for (const Trend& large : {Trend{0.7, 0.1}, Trend{0.1, 1.1}}) {
+        SubstepControl loop(row_of(SolverMethod::line), 12, {1, 12}, 6);
+        fly(loop, 20, small);
+        ASSERT_EQ(loop.begin(6, false).substeps, 2u);
+        fly(loop, 1, [](std::uint32_t) { return Trend{0.1, 0.9}; });
+        EXPECT_EQ(loop.begin(6, false).substeps, 2u) << "its limit allows so much to be added";
+        int last = 0;
+        for (const int least : {4, 8, 16, 32}) {
+            fly(loop, 1, [&](std::uint32_t) { return large; });
+            int tenths = 0;
+            for (; loop.begin(6, false).substeps == 12 && tenths < 100; ++tenths) fly(loop, 1, small);
+            EXPECT_GE(tenths, least) << "it waits longer each time, so that no cycle shakes cloth at rest";
+            EXPECT_LT(tenths, 100);
+            last = tenths;
+            fly(loop, 10, small);
+            EXPECT_EQ(loop.begin(6, false).substeps, 2u);
+        }
+        EXPECT_GE(loop.begin(6, true).substeps, 12u) << "the scene tells of something";
+        EXPECT_EQ(loop.judge({.stretch = 0.1}), Verdict::keep);
+        loop.accumulated({0.01, 0.01});
+        int tenths = 0;
+        for (; loop.begin(6, false).substeps >= 12 && tenths < last; ++tenths) fly(loop, 1, small);
+        EXPECT_LT(tenths, 16) << "and then it waits no longer than at the start";
+    }
 }
 
 TEST(SubstepControl, WithoutProbesSubstepsFollowTheErrorAndComeBack) {
@@ -359,8 +392,24 @@ TEST(SubstepControl, ALagThatMoreSubstepsLessenIsLessened) {
     EXPECT_EQ(substeps_lagging(
                   loop, [](double) { return 0.0; }, attempts),
               8u);
-    loop.begin(6, false);
     EXPECT_TRUE(loop.fails({.lag = 1.1}));
+}
+
+TEST(SubstepControl, AFrameThatLagsIsProbedInsteadOfRefined) {
+    SubstepControl loop = control(16);
+    EXPECT_TRUE(loop.begin(6, false).probes);
+    EXPECT_FALSE(loop.fails({.lag = 50})) << "the probe measures the motion";
+    EXPECT_EQ(loop.judge({.stretch = 0.5, .motion = 0.8, .coarse_stretch = 0.9, .lag = 50}), Verdict::keep);
+    while (!loop.begin(6, false).probes) EXPECT_EQ(loop.judge({.stretch = 0.5, .lag = 50}), Verdict::keep) << "known";
+    EXPECT_EQ(loop.judge({.stretch = 0.5, .motion = 0.8, .coarse_stretch = 0.9}), Verdict::keep);
+    ASSERT_FALSE(loop.begin(4, false).probes);
+    EXPECT_TRUE(loop.fails({.stretch = 0.5, .lag = 50}));
+    EXPECT_EQ(loop.judge({.stretch = 0.5, .lag = 50}), Verdict::again);
+    EXPECT_EQ(loop.segment(), (Segment{16, 4, true}));
+    EXPECT_EQ(loop.judge({.stretch = 0.5, .motion = 2, .coarse_stretch = 0.9, .lag = 50}), Verdict::again)
+        << "a motion that is wrong is refined";
+    EXPECT_GT(loop.segment().substeps, 16u);
+    EXPECT_EQ(loop.judge({.stretch = 0.1, .motion = 0.5, .coarse_stretch = 0.4, .lag = 20}), Verdict::keep);
 }
 
 TEST(SubstepControl, ALagThatMoreSubstepsDoNotLessenIsKeptAndLeftAlone) {
