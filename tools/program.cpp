@@ -40,9 +40,10 @@ class HelpFormatter : public CLI::Formatter {
         return wrapped(app->get_description(), help_columns) + "\n";
     }
     std::string make_subcommand(const CLI::App* command) const override {
-        std::ostringstream line;
-        CLI::detail::format_help(line, command->get_name(), beside(command->get_description()), column_width_);
-        return line.str();
+        const std::string gap(column_width_, ' '), name = "  " + command->get_name();
+        std::string text = name.size() < gap.size() ? name + gap.substr(name.size()) : name + '\n' + gap;
+        for (const char c : beside(command->get_description())) text += c == '\n' ? '\n' + gap : std::string(1, c);
+        return text + '\n';
     }
     std::string make_option_desc(const CLI::Option* option) const override { return beside(option->get_description()); }
 

@@ -1,6 +1,7 @@
 #include "cloth/solver_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // schema UsdGeomMesh (https://openusd.org/release/api/class_usd_geom_mesh.html). Each cloth has a text file, whose
 // points are time samples by frame number.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 #include "run/run_statistics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

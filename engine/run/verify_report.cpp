@@ -1,5 +1,6 @@
 // Reports the judgements to people, programs and test servers.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <json/json.h>
 
 #include <algorithm>

@@ -1,27 +1,9 @@
-#include <fmt/format.h>
-
 #include "vulkan/api.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/shader_stage.h"
 #include "vulkan/structure.h"
 
 namespace drape::vulkan {
-
-namespace {
-
-void require_local_size(const Device& device, const std::string& name, const std::array<std::uint32_t, 3>& size) {
-    const VkPhysicalDeviceLimits& limits = device.limits();
-    bool fits = std::uint64_t{size[0]} * size[1] * size[2] <= limits.maxComputeWorkGroupInvocations;
-    for (std::size_t axis = 0; axis < size.size(); ++axis) {
-        fits = fits && size[axis] > 0 && size[axis] <= limits.maxComputeWorkGroupSize[axis];
-    }
-    if (!fits) {
-        throw VulkanError(fmt::format("pipeline {}: the device cannot have workgroups of {} x {} x {}", name, size[0],
-                                      size[1], size[2]));
-    }
-}
-
-}  // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, std::string name, const Shader& shader,
                                  std::span<const SpecializationConstant> constants)
@@ -30,7 +12,6 @@ ComputePipeline::ComputePipeline(const Device& device, std::string name, const S
     const ShaderStage* const stages[] = {&stage};
     require_constants(name_, constants, stages);
     local_size_ = stage.reflected().local_size;
-    require_local_size(device, name_, local_size_);
     make_layout(stages);
     auto info = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     info.stage = stage.create_info();

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "vulkan/api.h"
@@ -21,15 +20,6 @@ void require_read_only(const std::string& pipeline, const ShaderStage& stage) {
                                           pipeline, stage.module(), descriptor.name, descriptor.binding));
         }
     }
-}
-
-/// Throws if too many components go from vertices to fragments: Vulkan guarantees 64, and surfaces use more.
-void require_varyings(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
-    const VkPhysicalDeviceLimits& limits = device.limits();
-    const std::uint32_t most = std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents);
-    if (const std::uint32_t needed = 4 * stage.reflected().varying_locations; needed > most)
-        throw VulkanError(fmt::format("pipeline {}: {} takes {} components from vertices to fragments, the device {}",
-                                      pipeline, stage.module(), needed, most));
 }
 
 /// The structures of the fixed functions point at each other, so they are built in place and never copied.
@@ -110,10 +100,7 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, std::string name, const
         stages.push_back(&*fragment);
     }
     require_constants(name_, state.constants, stages);
-    for (const ShaderStage* stage : stages) {
-        require_read_only(name_, *stage);
-        require_varyings(device, name_, *stage);
-    }
+    for (const ShaderStage* stage : stages) require_read_only(name_, *stage);
     make_layout(stages);
 
     std::vector<VkPipelineShaderStageCreateInfo> stage_infos;

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <optional>
 
 #include "vulkan/api.h"
 #include "vulkan/device_requirements.h"
 #include "vulkan/structure.h"
+#include "vulkan/validation_request.h"
 
 namespace drape::vulkan {
 
@@ -25,8 +26,6 @@ struct Instance::Echo {
 
 namespace {
 
-constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
-
 /// Returns whether a message is the hint that copies and clears in GENERAL are slow. Real layout errors have the same
 /// message id, so the type and the text decide.
 bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_view id, std::string_view text) {
@@ -41,19 +40,6 @@ void load_loader() {
     if (result != VK_SUCCESS) throw VulkanError("no Vulkan loader found (libvulkan.so.1)");
     if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
         throw VulkanError("the Vulkan loader is older than 1.3");
-    }
-}
-
-void require_validation_layer() {
-    std::uint32_t count = 0;
-    check(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
-    std::vector<VkLayerProperties> layers(count);
-    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
-    const bool found = std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
-        return std::strcmp(layer.layerName, validation_layer) == 0;
-    });
-    if (!found) {
-        throw VulkanError(fmt::format("validation was asked for, but the layer {} is not installed", validation_layer));
     }
 }
 
@@ -110,7 +96,6 @@ Instance::Instance(const InstanceOptions& options, Empty)
 
 Instance::Instance(const InstanceOptions& options) : Instance(options, Empty{}) {
     load_loader();
-    if (validation_) require_validation_layer();
     create(validation_);
     // These function pointers of the loader's own dispatch work for every instance and device of the process, with and
     // without layers. volkLoadDevice would bind them to one device, to save a jump per call.
@@ -131,22 +116,8 @@ void Instance::create(bool validation) {
     auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
     info.pApplicationInfo = &application;
 
-    // Core validation is on by default; synchronization validation, which finds missing barriers, is not.
-    constexpr VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
-    auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
-    features.enabledValidationFeatureCount = 1;
-    features.pEnabledValidationFeatures = enabled;
-    // The messenger is chained too, since it does not exist during vkCreateInstance and vkDestroyInstance.
-    VkDebugUtilsMessengerCreateInfoEXT messenger = echo_->create_info();
-    features.pNext = &messenger;
-    constexpr const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
-    if (validation) {
-        info.pNext = &features;
-        info.enabledLayerCount = 1;
-        info.ppEnabledLayerNames = &validation_layer;
-        info.enabledExtensionCount = 2;
-        info.ppEnabledExtensionNames = extensions;
-    }
+    std::optional<ValidationRequest> request;
+    if (validation) request.emplace(echo_->create_info()).put_into(info);
     const VkResult result = vkCreateInstance(&info, nullptr, &handle_);
     if (result != VK_SUCCESS) handle_ = VK_NULL_HANDLE;
     check(result, "vkCreateInstance",

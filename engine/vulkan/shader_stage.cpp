@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "vulkan/api.h"
 #include "vulkan/structure.h"
@@ -46,6 +47,25 @@ void require_known(const std::string& pipeline, const std::string& module, const
             fmt::format("pipeline {}: shader module {} has what is not used here:{}", pipeline, module, unknown));
 }
 
+void require_local_size(const VkPhysicalDeviceLimits& limits, const std::string& pipeline,
+                        const std::array<std::uint32_t, 3>& size) {
+    bool fits = std::uint64_t{size[0]} * size[1] * size[2] <= limits.maxComputeWorkGroupInvocations;
+    for (std::size_t axis = 0; axis < size.size(); ++axis)
+        fits = fits && size[axis] > 0 && size[axis] <= limits.maxComputeWorkGroupSize[axis];
+    if (!fits)
+        throw VulkanError(fmt::format("pipeline {}: the device cannot have workgroups of {} x {} x {}", pipeline,
+                                      size[0], size[1], size[2]));
+}
+
+/// Throws if too many components go from vertices to fragments: Vulkan guarantees 64, and surfaces use more.
+void require_varyings(const VkPhysicalDeviceLimits& limits, const std::string& pipeline, const std::string& module,
+                      std::uint32_t locations) {
+    const std::uint32_t most = std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents);
+    if (4 * locations > most)
+        throw VulkanError(fmt::format("pipeline {}: {} takes {} components from vertices to fragments, the device {}",
+                                      pipeline, module, 4 * locations, most));
+}
+
 }  // namespace
 
 ShaderStage::ShaderStage(const Device& device, const std::string& pipeline, const Shader& shader,
@@ -61,6 +81,11 @@ ShaderStage::ShaderStage(const Device& device, const std::string& pipeline, cons
                                       stage_name(reflected_.stage), stage_name(stage)));
     }
     require_known(pipeline, name_, reflected_);
+    // A module beyond the limits is itself wrong, as newer validation layers say.
+    if (stage == VK_SHADER_STAGE_COMPUTE_BIT)
+        require_local_size(device.limits(), pipeline, reflected_.local_size);
+    else
+        require_varyings(device.limits(), pipeline, name_, reflected_.varying_locations);
     auto info = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = specialised.words.size() * sizeof(std::uint32_t);
     info.pCode = specialised.words.data();

@@ -1,6 +1,7 @@
 #include "bench/record.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 

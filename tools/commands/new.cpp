@@ -1,5 +1,6 @@
 // `drape new` writes a first scene to change, one of scene_templates.cpp.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cstdio>

@@ -1,6 +1,7 @@
 #include "commands/run_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include "base/printable_text.h"
