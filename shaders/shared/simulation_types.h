@@ -155,7 +155,7 @@ struct PinnedParticle {
 };
 
 /// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). Of a pin that took its particles where they
-/// were it is the displacement in the substep, of particles at x: rows . (x, 1). From the pin's release on it is h times
+/// were it is the displacement in the substep of what is at x: rows . (x, 1). From the pin's release on it is h times
 /// the velocity that it then had, m, of the same places.
 struct PinMotion {
     vec4 row_x, row_y, row_z;
