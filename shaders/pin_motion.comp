@@ -19,7 +19,7 @@ void main() {
     ivec4 index = pinned_particles[particle].index;
     if (!is_present(uint(index.w / push.rows))) return;
     PinMotion motion = pin_motions[push.motion_first + index.z];
-    if (motion.held.x == 0.0f) return;
+    if (motion.held.x == 0.0f || !is_pinned(motion, ivec2(index.x, index.y - index.w))) return;
     vec3 moved = pin_displacement(motion, pinned_particles[particle].rest.xyz, imageLoad(position, index.xy).xyz);
     imageStore(displacement, index.xy, vec4(moved, 0.0f));
 }

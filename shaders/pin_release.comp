@@ -1,7 +1,7 @@
 // This pass frees particles whose pin is released, with their pin's velocity: from then on w is their own inverse mass.
-// The following substep is the first without the pin's force (include/pin.h). Where the method `carries_to_release`,
-// the springs' last pull comes from their stored tension. In `second_order` it asks the control for backward Euler
-// substeps.
+// Particles that a pin takes get w = 0. The substep that follows a release is the first without the pin's force
+// (include/pin.h). Where the method `carries_to_release`, the springs' last pull comes from their stored tension. In
+// `second_order` it asks the control for backward Euler substeps.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
@@ -72,16 +72,20 @@ void main() {
     push = constants_of(uint(cloth));  // a list of pins contains those of all cloths
     vec4 rest = pinned_particles[particle].rest;
     PinMotion motion = pin_motions[given.motion_first + index.z];
-    if (motion.held.x != 0.0f || rest.w == 0.0f) return;
+    if (rest.w == 0.0f || !is_pinned(motion, ivec2(index.x, index.y - index.w))) return;
     vec4 position = imageLoad(position_in, index.xy);
-    if (position.w != 0.0f) return;
-    imageStore(position_out, index.xy, vec4(position.xyz, rest.w));
+    bool holds = motion.held.x != 0.0f;
+    if (holds == (position.w == 0.0f)) return;
+    imageStore(position_out, index.xy, vec4(position.xyz, holds ? 0.0f : rest.w));
+    if (second_order) imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
+    if (holds) return;
     vec3 displacement = imageLoad(displacement_in, index.xy).xyz;
     vec3 pull = vec3(0.0f, 0.0f, 0.0f);
     if (carries_to_release) pull = pull_of_springs(ivec2(0, index.w), index.xy);
-    if (second_order) imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
     float surplus = release_surplus(motion);
-    precise vec3 velocity_step = pin_target(motion, rest.xyz) - displacement;
+    precise vec3 now = position.xyz;
+    if (advance) now = now + displacement;
+    precise vec3 velocity_step = pin_target(motion, motion.held.z != 0.0f ? now : rest.xyz) - displacement;
     imageStore(displacement_out, index.xy, vec4(displacement, release_mark(surplus)));
     imageStore(displacement_remainder, index.xy,
                vec4(release_remainder(velocity_step, rest.w, surplus, pull, push.reach), 0.0f));

@@ -12,7 +12,8 @@
 
 namespace drape {
 
-ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks)
+ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks,
+                             const ClothActions& actions)
     : name(cloth.name),
       grid(cloth),
       stiffens(!cloth.stiffness_keys.empty()),
@@ -41,6 +42,8 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
             rest_scales.push_back({static_cast<float>(ratio[0]), static_cast<float>(ratio[1]),
                                    static_cast<float>(ratio[2]), static_cast<float>(ratio[3])});
     hold_pins(cloth.pins);
+    has_release = has_release || (actions.holds && has_motion);
+    add_hands(actions.hands);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
     if (cloth.tear) tear_limits = drape::tear_limits(cloth, grid);
@@ -151,6 +154,22 @@ void ClothGeometry::hold_pins(const std::vector<Pin>& pins) {
                                static_cast<int>(dynamic_pins.size()), 0}});
         }
         dynamic_pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release, index});
+    }
+}
+
+void ClothGeometry::add_hands(const std::vector<std::size_t>& hands) {
+    for (const std::size_t hand : hands) {
+        for (std::uint32_t particle = 0; particle < position.size(); ++particle) {
+            const glsl::vec4 at = position[particle];
+            if (free_weight[particle] > 0)
+                pinned.push_back(
+                    {{at.x, at.y, at.z, free_weight[particle]},
+                     {static_cast<int>(particle % grid.columns()), static_cast<int>(particle / grid.columns()),
+                      static_cast<int>(dynamic_pins.size()), 0}});
+        }
+        dynamic_pins.push_back(
+            {.path = {}, .pivot = {}, .release = -1, .number = 0, .hand = hand, .held = no_particles});
+        has_motion = has_release = true;
     }
     if (!has_motion) skipped.push_back({name + "/pin motion", "no pin has a path"});
     if (!has_release) skipped.push_back({name + "/pin release", "no pin is released"});

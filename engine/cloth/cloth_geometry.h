@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,17 +22,33 @@ struct SkippedWork {
     std::string what, reason;
 };
 
-/// A pin that moves or lets go; pins at rest for ever are just w = 0.
+/// What actions may do to a cloth, beside moving its pins.
+struct ClothActions {
+    bool holds = false;                   ///< pins let go and take again
+    std::vector<std::size_t> hands = {};  ///< the numbers of the hands that take its particles
+};
+
+inline constexpr IndexBox no_particles{{1, 1}, {0, 0}}, all_particles{{0, 0}, {INT32_MAX, INT32_MAX}};
+
+/// A pin that moves or lets go, or a hand; pins at rest for ever are just w = 0. A hand may hold any of the cloth's
+/// particles, and none at first; its pivot is the origin, so that its path says where it is.
 struct DynamicPin {
     MotionPath path;
-    Vec3 pivot;                     ///< m
-    std::optional<double> release;  ///< s
-    std::size_t number;             ///< among the cloth's pins
+    Vec3 pivot;                            ///< m
+    std::optional<double> release;         ///< s
+    std::size_t number;                    ///< among the cloth's pins
+    std::optional<std::size_t> hand = {};  ///< its number among all hands; nothing: it is a pin of the scene
+    bool follows = false;                  ///< it took its particles where they were, and moves them from there
+    MotionPath let_go = {};                ///< its path until an action released it; without keys: `path`
+    IndexBox held = all_particles;  ///< of the particles in its list those that it holds, or held until its release
+    /// Returns whether it holds them at a time, s.
+    bool holds(double time) const { return !release || *release > time + 1e-9; }
 };
 
 struct ClothGeometry {
     /// `keeps_masks`: a whole cloth, too, gets its masks as images.
-    ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks);
+    ClothGeometry(const SceneDescription& scene, const Cloth& cloth, bool keeps_masks,
+                  const ClothActions& actions = {});
 
     std::string name;
     Grid grid;
@@ -67,7 +84,7 @@ struct ClothGeometry {
     std::vector<glsl::vec4> tear_limits;
 
     std::vector<DynamicPin> dynamic_pins;
-    std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins
+    std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins; every hand lists all that there are
     bool has_release = false, has_motion = false;
     bool shows_crumbs;  ///< small pieces that are cut off are drawn
     std::vector<SkippedWork> skipped;
@@ -87,6 +104,7 @@ struct ClothGeometry {
   private:
     void place(const Cloth& cloth);
     void hold_pins(const std::vector<Pin>& pins);
+    void add_hands(const std::vector<std::size_t>& hands);
     void set_tethers(const SceneDescription& scene, const Cloth& cloth);
 };
 

@@ -12,10 +12,28 @@ double largest_coordinate(const Cloth& cloth) {
     return std::hypot(o[0], o[1], o[2]) + std::hypot(cloth.size[0], cloth.size[1]);
 }
 
+namespace {
+
+ClothActions actions_on(std::size_t cloth, const ModelOptions& options) {
+    ClothActions actions{.holds = options.holds};
+    for (std::size_t hand = 0; hand < options.hands.size(); ++hand)
+        if (options.hands[hand] == cloth) actions.hands.push_back(hand);
+    return actions;
+}
+
+/// Whoever may let go, take or turn gravity leaves nothing that is known of how the cloth turns.
+std::optional<KeptTurn> turn_of(const SceneDescription& scene, const ClothGeometry& cloth,
+                                const ModelOptions& options) {
+    const bool known = !options.holds && !options.weight && options.hands.empty();
+    return known ? kept_turn(scene, cloth) : std::nullopt;
+}
+
+}  // namespace
+
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
-    : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip),
+    : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip, actions_on(cloth_index, options)),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
-      turn(kept_turn(scene, *this)),
+      turn(turn_of(scene, *this, options)),
       scheme(row_of(scene.solver.method)
                  .scheme(*this,
                          {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),

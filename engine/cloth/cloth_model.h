@@ -11,12 +11,16 @@ namespace drape {
 struct ModelOptions {
     /// false: do the work of the exact skips (masks of whole cloths, tensions of single iterations), to prove that
     /// skipping changes no bit.
-    /// changes no bit.
     bool skip = true;
     DeviceKind device = DeviceKind::cpu;  ///< the device for which `auto` chooses, and whose costs decide which steps a
                                           ///< method leaves out
     bool closed_loop = true;              ///< false: method `auto` keeps the substeps that its laws propose
-    bool air = false;  ///< there is air even if the scene has no wind, because an ensemble's actions may move it
+    // What actions may do between frames (drape/ensemble.h):
+    bool air = false;     ///< move the air, which is there even if the scene has no wind
+    bool weight = false;  ///< change gravity
+    bool holds = false;   ///< have pins let go and take again
+    bool acts = false;    ///< any of it, so that each frame is done before anything is known of the next
+    std::vector<std::size_t> hands = {};  ///< the cloth of each hand
 };
 
 /// Contact resolves an overlap that it did not see coming (cloth that starts inside a collider) at this speed, m/s:

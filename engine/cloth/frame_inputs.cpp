@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/vectors.h"
 #include "world/collider_pose.h"
@@ -100,17 +101,56 @@ RigidTransform pin_velocity(const DynamicPin& pin, double time, double h) {
     return velocity;
 }
 
-glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end) {
+/// Returns A x + b for A = `rotation` R^T and b = `translation` - A t, which applies what is known of rest positions to
+/// the places where x -> R x + t, a pin's motion, has taken them.
+RigidTransform at_places(const RigidTransform& of_rest, const RigidTransform& motion) {
+    RigidTransform found;
+    for (std::size_t i = 0; i < 3; ++i) {
+        found.translation[i] = of_rest.translation[i];
+        for (std::size_t j = 0; j < 3; ++j) {
+            double& element = found.rotation[3 * i + j];
+            element = 0;
+            for (std::size_t k = 0; k < 3; ++k) element += of_rest.rotation[3 * i + k] * motion.rotation[3 * j + k];
+            found.translation[i] -= element * motion.translation[j];
+        }
+    }
+    return found;
+}
+
+/// Returns how far a pin's motion takes places in a substep.
+RigidTransform pin_change(const DynamicPin& pin, double start, double end) {
+    const RigidTransform before = pin_transform(pin, start);
+    RigidTransform change = at_places(pin_transform(pin, end), before);
+    for (std::size_t k = 0; k < 3; ++k) change.rotation[4 * k] -= 1;
+    return change;
+}
+
+/// Returns the velocity that a pin had when it let go, times h.
+RigidTransform let_go(const DynamicPin& pin, double h) {
+    const MotionPath& path = pin.let_go.keys.empty() ? pin.path : pin.let_go;
+    const DynamicPin then{.path = path, .pivot = pin.pivot, .release = pin.release, .number = pin.number};
+    const RigidTransform velocity = pin_velocity(then, *pin.release, h);
+    return pin.follows ? at_places(velocity, pin_transform(then, *pin.release)) : velocity;
+}
+
+/// `recent`: s; a release that long ago is over, and its particles may be held by others.
+glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end, double recent) {
     const double h = end - start;
-    const bool released = pin.release && *pin.release <= start + 1e-9;
-    const RigidTransform motion = released ? pin_velocity(pin, *pin.release, h) : pin_transform(pin, end);
+    const bool released = !pin.holds(start);
+    const bool over = released && start - *pin.release >= recent;
+    const RigidTransform motion = released      ? let_go(pin, h)
+                                  : pin.follows ? pin_change(pin, start, end)
+                                                : pin_transform(pin, end);
     const auto& [r, shift] = motion;
     // A release before the start of a run takes place at its start.
     const double late = released ? std::clamp((start - std::max(*pin.release, 0.0)) / h, 0.0, 1.0) : 0.0;
-    return {row(r, 0, shift[0]),
-            row(r, 1, shift[1]),
-            row(r, 2, shift[2]),
-            {released ? 0.0f : 1.0f, static_cast<float>(late), 0, 0}};
+    const auto& [first, last] = over ? no_particles : pin.held;
+    return {
+        row(r, 0, shift[0]),
+        row(r, 1, shift[1]),
+        row(r, 2, shift[2]),
+        {released ? 0.0f : 1.0f, static_cast<float>(late), pin.follows ? 1.0f : 0.0f, 0},
+        {static_cast<int>(first[0]), static_cast<int>(first[1]), static_cast<int>(last[0]), static_cast<int>(last[1])}};
 }
 
 }  // namespace
@@ -155,6 +195,7 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     std::vector<double> ways;
     for (const Collider& collider : scene.colliders)
         ways.push_back(deformed(collider, frame_start, frame / scene.time.fps) / scene.solver.substeps);
+    const double recent = frame > 1 ? 1 / scene.time.fps - 1e-9 : std::numeric_limits<double>::infinity();
     inputs.pins.resize(model.cloths.size());
     for (std::vector<glsl::PinMotion>& pins : inputs.pins) pins.clear();
     for (std::uint32_t substep = 0; substep < scene.solver.substeps; ++substep) {
@@ -179,7 +220,7 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
                 }
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             for (const DynamicPin& pin : model.cloths[cloth].dynamic_pins)
-                inputs.pins[cloth].push_back(pin_motion(pin, start, end));
+                inputs.pins[cloth].push_back(pin_motion(pin, start, end, recent));
     }
 }
 

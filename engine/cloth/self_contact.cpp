@@ -131,7 +131,10 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
         particles += models[k].grid.particle_count();
         // With held cloth there is no common motion: held particles against which others are pressed must not seem to
         // move.
-        if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; })) held = true;
+        const auto is_hand = [](const DynamicPin& pin) { return pin.hand.has_value(); };
+        if (std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.release; }) ||
+            std::ranges::any_of(models[k].dynamic_pins, is_hand))
+            held = true;
         for (std::size_t other = 0; other < count; ++other)
             meetings.push_back(k != other || cloth.self_collision ? glsl::self_meets : glsl::self_meets_not);
     }

@@ -17,8 +17,8 @@ SimulationModel::SimulationModel(const SceneDescription& description, const Mode
       asked_tolerance(description.solver.tolerance),
       choice(choose_solver(description, wanted.device)),
       options(wanted),
-      windy(has_weather(description) || wanted.air),
-      weighs(gravity_changes(description)) {
+      windy(has_weather(description) || wanted.air || wanted.weight),
+      weighs(gravity_changes(description) || wanted.weight) {
     scene.solver = choice.settings;
     add_cloths(cloths_meet(scene) ? start_crossings(scene) : std::vector<StartCrossing>{});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
@@ -71,6 +71,16 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
     std::vector<const SelfContact*> contacts;
     for (const SimulationModel* const member : members) contacts.push_back(&*member->self_contact);
     self_contact.emplace(contacts);
+}
+
+void SimulationModel::take_actions(const SimulationModel& acted) {
+    scene.wind = acted.scene.wind;
+    scene.gravity_keys = acted.scene.gravity_keys;
+    for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
+        scene.colliders[k].path = acted.scene.colliders[k].path;
+        for (std::vector<KeptCollider>& list : kept_colliders) list[k].collider.path = scene.colliders[k].path;
+    }
+    for (std::size_t k = 0; k < cloths.size(); ++k) cloths[k].dynamic_pins = acted.cloths[k].dynamic_pins;
 }
 
 void SimulationModel::add_colliders() {

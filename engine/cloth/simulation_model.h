@@ -24,6 +24,8 @@ struct SimulationModel {
     /// Joins scenes of one shape (cloth/members.h): the cloths of the first come first, each named "<member>/<name>".
     /// `scene` is the first one's with all cloths. Cloths of two members never touch.
     explicit SimulationModel(const std::vector<const SimulationModel*>& members);
+    /// Takes over what actions have changed in another model of the same scene.
+    void take_actions(const SimulationModel& acted);
 
     SceneDescription
         scene;  ///< the scene with the settings in use (`auto` is resolved) and its colliders sorted by kind

@@ -35,6 +35,7 @@ struct Ways {
 Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::Start& start, double from, double to) {
     Ways most;
     for (const DynamicPin& pin : cloth.dynamic_pins) {
+        if (pin.held == no_particles) continue;  // a hand that holds nothing
         const RigidTransform before = pin_transform(pin, from), now = pin_transform(pin, to);
         const auto pivot = [&](const RigidTransform& at) {
             return plus(rotate(at.rotation, pin.pivot), at.translation);

@@ -66,7 +66,8 @@ double turning_judgement(const SimulationModel& model, const std::vector<ClothSt
 }
 
 std::uint32_t probe_room(const SimulationModel& model, std::uint32_t frame) {
-    if (model.scene.tears()) return 0;  // each frame of a scene that tears ends with a search
+    // Each frame of a scene that tears ends with a search; what actions do in the next is not known yet.
+    if (model.scene.tears() || model.options.acts) return 0;
     const double fps = model.scene.time.fps;
     const std::uint32_t end = std::max(model.scene.time.frame_count, frame + 1);
     std::uint32_t room = 0;

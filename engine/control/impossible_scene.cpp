@@ -26,9 +26,10 @@ std::vector<Held> held_particles(const ClothModel& cloth, double time) {
     std::vector<bool> is_dynamic(cloth.position.size());
     std::vector<Held> held;
     for (const glsl::PinnedParticle& particle : cloth.pinned) {
+        const DynamicPin& pin = cloth.dynamic_pins[static_cast<std::size_t>(particle.index.z)];
+        if (pin.hand || pin.follows) continue;  // where it took its particles is not known here
         is_dynamic[cloth.grid.particle(static_cast<std::uint32_t>(particle.index.x),
                                        static_cast<std::uint32_t>(particle.index.y))] = true;
-        const DynamicPin& pin = cloth.dynamic_pins[static_cast<std::size_t>(particle.index.z)];
         if (pin.release && *pin.release <= time) continue;
         const RigidTransform motion = pin_transform(pin, time);
         const Vec3 rest{particle.rest.x, particle.rest.y, particle.rest.z};

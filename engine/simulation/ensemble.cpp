@@ -11,6 +11,7 @@
 #include "picture/pictures.h"
 #include "simulation/contact_report.h"
 #include "simulation/device_parts.h"
+#include "simulation/member_actions.h"
 #include "simulation/member_frames.h"
 #include "simulation/state_checksum.h"
 
@@ -75,10 +76,6 @@ struct Ensemble::Parts {
                            MemberFrames::check_room(given.parts_->device, two, scenes.size(), frame_options());
                        })),
           obstacle(obstacle_of(members)) {
-        const bool acts = wanted.controls.wind || wanted.controls.pins || wanted.controls.colliders;
-        if (acts && members.front()->model.closed_loop())
-            throw Error(
-                "method auto does frames again, with those before them, and cannot be given actions: name a method");
         frames = std::make_unique<MemberFrames>(given.parts_->device, members, frame_options(), !obstacle);
     }
 
@@ -126,8 +123,12 @@ const FrameEffort& Ensemble::effort(std::size_t member) const { return parts_->m
 
 void Ensemble::step(const EnsembleActions& actions) {
     Members& members = parts_->members;
-    check_actions(actions, parts_->options.controls, members.front()->model, members.size());
-    for (std::size_t k = 0; k < members.size(); ++k) act(actions, k, *members[k]);
+    check_actions(actions, parts_->options.controls, members);
+    for (std::size_t k = 0; k < members.size() && acts(parts_->options.controls); ++k) {
+        act(actions, k, *members[k]);
+        parts_->frames->take_actions(k);
+        if (is_any(actions)) parts_->frames->wake(k);
+    }
     // Meanwhile the host judges the previous frame's statistics; what moves the cloths until the end of this frame is
     // known.
     parts_->frames->step([&] {
@@ -142,7 +143,10 @@ void Ensemble::step(const EnsembleActions& actions) {
 
 void Ensemble::reset(std::span<const std::size_t> members) {
     parts_->check_numbers(members);
-    for (const std::size_t number : members) parts_->members[number]->begin_anew();
+    for (const std::size_t number : members) {
+        parts_->members[number]->begin_anew();
+        parts_->frames->take_actions(number);
+    }
     parts_->frames->reset(members);
     parts_->frames->refresh();
 }
@@ -192,6 +196,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         Member& member = *parts_->members[members[k]];
         static_cast<MemberProgress&>(member) = std::move(progress[k]);
         motions[k].put_into(member.model);
+        parts_->frames->take_actions(members[k]);
     }
     parts_->frames->refresh();
 }

@@ -38,10 +38,16 @@ FrameGraphs::ModelsAt& FrameGraphs::models_at(std::uint32_t substeps) {
     ModelsAt& models = models_[substeps];
     if (!models.own.empty()) return models;
     std::vector<const SimulationModel*> all;
-    for (const SimulationModel* const member : members_)
+    for (const SimulationModel* const member : members_) {
         all.push_back(models.own.emplace_back(std::make_unique<SimulationModel>(*member, substeps)).get());
+        models.own.back()->take_actions(*member);
+    }
     if (joined_) models.joint = std::make_unique<SimulationModel>(all);
     return models;
+}
+
+void FrameGraphs::take_actions(std::size_t number) {
+    for (auto& [substeps, models] : models_) models.own[number]->take_actions(*members_[number]);
 }
 
 const SimulationModel& FrameGraphs::joint_at(std::uint32_t substeps) {

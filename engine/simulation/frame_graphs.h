@@ -62,6 +62,8 @@ class FrameGraphs {
     /// These return the same models with this number of substeps; 0: the scene's number.
     const SimulationModel& joint_at(std::uint32_t substeps);
     const SimulationModel& member_at(std::size_t number, std::uint32_t substeps);
+    /// Has the models of other numbers of substeps follow what actions changed in a member's.
+    void take_actions(std::size_t number);
     std::size_t member_count() const { return members_.size(); }
     std::size_t cloths_each() const { return members_.front()->cloths.size(); }
     /// Returns whether a submit may do work for some members and not for others.

@@ -1,4 +1,4 @@
-// A member of an ensemble: the model of its scene, which actions change, and its last frame.
+// A member of an ensemble: the model of its scene, which actions change (member_actions.h), and its last frame.
 #pragma once
 
 #include <memory>
@@ -19,14 +19,27 @@ struct MemberMotion {
     template <class Archive>
     void transfer(Archive& archive) {
         archive(wind.velocity[0], wind.velocity[1], wind.velocity[2], wind.gust.amplitude);
-        transfer_keys(archive, wind.keys,
-                      [&](VectorKey& key) { archive(key.time, key.value[0], key.value[1], key.value[2]); });
-        for (std::vector<MotionPath>* paths : {&pins, &colliders})
-            for (MotionPath& path : *paths)
-                transfer_keys(archive, path.keys, [&](MotionKey& key) {
-                    archive(key.time, key.translate[0], key.translate[1], key.translate[2], key.rotate[0],
-                            key.rotate[1], key.rotate[2]);
-                });
+        for (std::vector<VectorKey>* keys : {&wind.keys, &gravity})
+            transfer_keys(archive, *keys,
+                          [&](VectorKey& key) { archive(key.time, key.value[0], key.value[1], key.value[2]); });
+        for (DynamicPin& pin : pins) {
+            transfer_path(archive, pin.path);
+            transfer_path(archive, pin.let_go);
+            bool released = pin.release.has_value();
+            double release = pin.release.value_or(0);
+            archive(released, release, pin.follows, pin.held.first[0], pin.held.first[1], pin.held.last[0],
+                    pin.held.last[1]);
+            pin.release = released ? std::optional(release) : std::nullopt;
+        }
+        for (MotionPath& path : colliders) transfer_path(archive, path);
+    }
+
+    template <class Archive>
+    static void transfer_path(Archive& archive, MotionPath& path) {
+        transfer_keys(archive, path.keys, [&](MotionKey& key) {
+            archive(key.time, key.translate[0], key.translate[1], key.translate[2], key.rotate[0], key.rotate[1],
+                    key.rotate[2]);
+        });
     }
 
     template <class Archive, class Key, class Transfer>
@@ -39,7 +52,8 @@ struct MemberMotion {
 
     static constexpr std::uint64_t most_keys = 1'000'000;
     Wind wind;
-    std::vector<MotionPath> pins;       ///< of those pins of all cloths that can move
+    std::vector<VectorKey> gravity;
+    std::vector<DynamicPin> pins;       ///< those pins of all cloths that can move, and the hands
     std::vector<MotionPath> colliders;  ///< sorted by kind
 };
 
@@ -70,10 +84,6 @@ struct Member : MemberProgress {
     void judge();
 };
 
-/// Throws ActionError where an ensemble's members cannot follow these actions.
-void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
-                   std::size_t member_count);
-/// Applies a member's part of the actions to its model, for the next frame.
-void act(const EnsembleActions& actions, std::size_t number, Member& member);
+using Members = std::vector<std::unique_ptr<Member>>;
 
 }  // namespace drape

@@ -157,6 +157,10 @@ void MemberFrames::step(const std::function<void()>& meanwhile) {
     if (meanwhile_) std::exchange(meanwhile_, {})();
 }
 
+void MemberFrames::take_actions(std::size_t number) { server_of(number).graphs().take_actions(seats_[number].place); }
+
+void MemberFrames::wake(std::size_t number) { server_of(number).member(seats_[number].place).pilot().wake(); }
+
 void MemberFrames::simulate(const std::vector<std::size_t>& numbers) {
     for (const std::size_t number : numbers) {
         if (over_[number]) continue;

@@ -18,8 +18,6 @@ namespace drape {
 enum class MemberValue : std::uint8_t { position, velocity, normal };
 inline constexpr std::size_t member_value_count = 3;
 
-using Members = std::vector<std::unique_ptr<Member>>;
-
 struct MemberFrameOptions {
     bool normals;
     Kernels kernels;
@@ -38,6 +36,10 @@ class MemberFrames {
     static void check_room(const vulkan::Device& device, const Members& two, std::size_t count,
                            const MemberFrameOptions& options);
 
+    /// Tells the device's side of a member that actions changed its model.
+    void take_actions(std::size_t number);
+    /// Has the member's next frame simulated even if nothing moved for long.
+    void wake(std::size_t number);
     /// Simulates each member's next frame by its model as it is now, and takes the statistics. `meanwhile` is called
     /// once, while the device works where that is possible.
     void step(const std::function<void()>& meanwhile);

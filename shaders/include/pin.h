@@ -1,4 +1,5 @@
-// The displacement of a held particle, and the start of a released one.
+// The displacement of a held particle, and the start of a released one. A pin that takes particles holds them from the
+// start of a substep on, wherever they are; their velocity is over.
 //
 // A pin lets go at the start t of a substep, where its particle moves with v; by the substep's end it has moved by h v
 // + h^2 a/2. Verlet's d' = d + h^2 a, from the d of a substep that ends at t, gives that when d = h v - h^2 a/2: the
@@ -25,8 +26,15 @@ SHARED vec3 pin_target(PinMotion motion, vec3 rest) {
     return target;
 }
 
-/// Returns the displacement that takes a held particle from `position` to where its pin moves its rest position.
+/// Returns whether the pin holds, or lets go, the particle at this column and row of its list.
+SHARED bool is_pinned(PinMotion motion, ivec2 place) {
+    return place.x >= motion.box.x && place.y >= motion.box.y && place.x <= motion.box.z && place.y <= motion.box.w;
+}
+
+/// Returns the displacement of a held particle: from `position` to where its pin moves its rest position, or, where the
+/// pin took it as it was, with the pin.
 SHARED vec3 pin_displacement(PinMotion motion, vec3 rest, vec3 position) {
+    if (motion.held.z != 0.0f) return pin_target(motion, position);
     precise vec3 moved = pin_target(motion, rest) - position;
     return moved;
 }

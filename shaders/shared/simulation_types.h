@@ -154,12 +154,14 @@ struct PinnedParticle {
     ivec4 index;  // column, row, motion, first row of its cloth (include/together.h)
 };
 
-/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). From the pin's release on x is h times the
-/// velocity that it then had, m.
+/// Rigid motion of one pin at the end of one substep: x = rows . (rest, 1). Of a pin that took its particles where they
+/// were it is the displacement in the substep of what is at x: rows . (x, 1). From the pin's release on it is h times
+/// the velocity that it then had, m, of the same places.
 struct PinMotion {
     vec4 row_x, row_y, row_z;
     vec4 held;  // x: 1 while held at the start of this substep, 0 from its release on; y: how many substeps ago that
-                // was, 1 at most; zw unused
+                // was, 1 at most; z: 1 where the pin took its particles where they were; w unused
+    ivec4 box;  // first column and row, last column and row of the particles that it holds or lets go; none: empty
 };
 
 #ifdef __cplusplus

@@ -315,8 +315,6 @@ TEST_F(EnsembleTest, MembersOfUnlikeShapeAreRefusedWithTheReason) {
     members[1].gravity_keys.clear();
     EXPECT_THAT(refusal(members), HasSubstr("/gravity_keys is steady, not changing"));
     EXPECT_THAT(refusal({}), HasSubstr("needs a member"));
-    EXPECT_THAT(refusal(drawn(scene_of({"/solver/method=\"auto\""}), 2, seed), {.controls = {.pins = true}}),
-                HasSubstr("name a method"));
 }
 
 TEST_F(EnsembleTest, TooManyMembersAreRefusedBeforeAnythingIsMade) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "device_run.h"
 #include "gpu_test.h"
@@ -120,17 +121,19 @@ inline void expect_same(Field field, const DeviceRun& one, const DeviceRun& othe
 }
 
 /// By every set of kernels that the default device may take, or by one alone. Returns the record of the last frame's
-/// contact between cloths, if they meet, with the most pairs of any frame.
+/// contact between cloths, if they meet, with the most pairs of any frame. `act` changes the model before each frame.
 inline glsl::SelfRecord compare(const SceneDescription& scene, const ModelOptions& options = {},
                                 const vulkan::Device& on = gpu().device, const FrameNeeds& needs = {.drawing = true},
-                                std::optional<Kernels> only = {}) {
-    const SimulationModel model(scene, options);
+                                std::optional<Kernels> only = {},
+                                const std::function<void(SimulationModel&, std::uint32_t)>& act = {}) {
+    SimulationModel model(scene, options);
     Twin twin(model, only.value_or(Kernels()));
     std::vector<std::unique_ptr<DeviceRun>> devices;
     for (const Kernels& kernels : only ? std::vector{*only} : kernel_sets(on, model))
         devices.push_back(std::make_unique<DeviceRun>(on, model, graph::BarrierFilter{}, kernels, needs));
     std::uint32_t most_pairs = 0;
     for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
+        if (act) act(model, frame);
         twin.run_frame(frame);
         if (model.self_contact) most_pairs = std::max(most_pairs, twin.contact().record.most_pairs);
         for (const auto& device : devices) device->run_frame(frame);

@@ -317,6 +317,38 @@ class Ensembles(Validated):
         np.testing.assert_allclose(together.positions()[1, 0, 0] - start[1, 0, 0], [0.01, 0.02, 0.03], atol=1e-6)
         self.assertGreater(together.positions()[2, -1, :, 2].mean(), together.positions()[0, -1, :, 2].mean())
 
+    def test_hands_take_and_pins_let_go(self):
+        together = self.ensemble(sheet(), 2, controls=["holds", "gravity"], hands=["cloth"])
+        start = together.positions().copy()
+        lower = start[:, -1, -1].astype(float)
+        grasps = np.full((2, 1, 2), -1)
+        grasps[1] = [start.shape[2] - 1, start.shape[1] - 1]
+        holds = np.ones((2, 2), bool)
+        holds[1] = False
+        together.step(hands=lower[:, None], grasps=grasps, holds=holds, gravity=np.zeros((2, 3)))
+        for frame in range(1, 4):
+            together.step(hands=lower[:, None] + [0.01 * frame, 0, 0], gravity=np.full((2, 3), [0, -9.81, 0]))
+        moved = together.positions() - start
+        np.testing.assert_allclose(moved[1, -1, -1], [0.03, 0, 0], atol=2e-6)
+        np.testing.assert_array_equal(moved[0, 0, 0], 0)
+        self.assertLess(moved[1, 0, 0, 1], -0.001)
+        with self.assertRaisesRegex(drape.ActionError, "member 0: grasps: hand 0: columns 99 to 99 of rows 0 to 0"):
+            together.step(grasps=np.array([[[99, 0]], [[-1, -1]]]))
+        with self.assertRaisesRegex(drape.ActionError, r"grasps: expected an array \[2, 1, 2 or 4\]"):
+            together.step(grasps=[[-1], [-1]])
+        with self.assertRaisesRegex(drape.ActionError, r"holds: expected an array \[2, 2\]"):
+            together.step(holds=[True, False])
+        np.testing.assert_array_equal(together.frames, [4, 4])
+
+    def test_members_by_auto_act_too(self):
+        together = self.ensemble(sheet(solver={"method": "auto"}), 2, controls=["pins"], hands=1)
+        pins = np.zeros((2, 2, 3))
+        for frame in range(4):
+            pins[1, 0] = [0.005 * frame, 0, 0]
+            together.step(pins=pins)
+        moved = together.positions()[:, 0, 0] - self.ensemble(sheet(), 1).positions()[0, 0, 0]
+        np.testing.assert_allclose(moved, [[0, 0, 0], [0.015, 0, 0]], atol=1e-6)
+
     def test_members_go_back_and_on_by_themselves(self):
         together = self.ensemble(sheet(), 3)
         frames = [together.positions()[0].copy()]
@@ -422,6 +454,14 @@ class Examples(unittest.TestCase):
         said, _ = self.run_example("pulled_corners.py", "4", "100")
         self.assertRegex(said, r"4 cloths on .*: 100 steps in .* cloth frames a second")
         self.assertRegex(said, r"[1-9]\d* episodes ended, \d+ of them at the goal")
+
+    def test_fold_towel(self):
+        said, _ = self.run_example("fold_towel.py", "24")
+        found = re.search(r"laid (\S+) mm from .* lies (\S+) mm above the table", said)
+        self.assertLess(float(found[1]), 0.01)
+        self.assertLess(float(found[2]), 60)
+        self.assertLess(int(re.search(r"covers (\d+) %", said)[1]), 90)
+        self.assertIn("nothing failed", said)
 
     def test_walking_cape(self):
         with tempfile.TemporaryDirectory() as folder:

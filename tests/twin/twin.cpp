@@ -199,8 +199,9 @@ void run_pin(const TwinPlace& where) {
     const std::size_t first = step.substep * model.dynamic_pins.size();
     for (const PinnedParticle& pin : model.pinned) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
-        if (motion.held.x == 0.0f) continue;
-        const std::size_t i = at(model.grid, {pin.index.x, pin.index.y});
+        const ivec2 here{pin.index.x, pin.index.y};
+        if (motion.held.x == 0.0f || !is_pinned(motion, here)) continue;
+        const std::size_t i = at(model.grid, here);
         state[Field::displacement][i] = texel(pin_displacement(motion, xyz(pin.rest), xyz(state[Field::position][i])));
     }
 }

@@ -1,4 +1,4 @@
-// The twin releases pins.
+// The twin releases pins, and has them take particles.
 #include <algorithm>
 
 #include "cloth/texels.h"
@@ -40,17 +40,21 @@ void run_release(const TwinPlace& where) {
         const PinMotion& motion = motions[first + static_cast<std::size_t>(pin.index.z)];
         const ivec2 here{pin.index.x, pin.index.y};
         const std::size_t i = at(model.grid, here);
-        if (motion.held.x != 0.0f || pin.rest.w == 0.0f || position[i].w != 0.0f) continue;
-        state[Field::position][i].w = pin.rest.w;
+        if (pin.rest.w == 0.0f || !is_pinned(motion, here)) continue;
+        const bool holds = motion.held.x != 0.0f;
+        if (holds == (position[i].w == 0.0f)) continue;
+        state[Field::position][i].w = holds ? 0.0f : pin.rest.w;
         if (model.scheme.second_order) {
             uint& hold = state.integers(Field::line_control)[control_hold];
             hold = std::max(hold, line_hold_release);
         }
+        if (holds) continue;
         const vec3 nothing{0, 0, 0}, displacement = xyz(state[Field::displacement][i]);
         const vec3 pull =
             model.scheme.release_stiffness.x > 0 ? pull_of_springs(model, state, here, step.substep > 0) : nothing;
         const float surplus = release_surplus(motion);
-        const vec3 velocity_step = pin_target(motion, xyz(pin.rest)) - displacement;
+        const vec3 now = step.substep > 0 ? xyz(position[i]) + displacement : xyz(position[i]);
+        const vec3 velocity_step = pin_target(motion, motion.held.z != 0.0f ? now : xyz(pin.rest)) - displacement;
         state[Field::displacement][i].w = release_mark(surplus);
         state[Field::displacement_remainder][i] =
             texel(release_remainder(velocity_step, pin.rest.w, surplus, pull, model.reach()));

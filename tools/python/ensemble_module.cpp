@@ -13,6 +13,15 @@ namespace drape::python {
 namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Choices = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+using Places = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/// What step() is given.
+struct Told {
+    std::optional<Numbers> wind, pins, colliders, gravity, hands;
+    std::optional<Choices> holds;
+    std::optional<Places> grasps;
+};
 
 /// Returns the members' scenes: so many of the scene, or what each entry makes of it.
 std::vector<SceneDescription> scenes_of(const Scene& scene, const py::object& members) {
@@ -35,8 +44,14 @@ std::vector<SceneDescription> scenes_of(const Scene& scene, const py::object& me
     return scenes;
 }
 
-EnsembleControls controls_of(const std::vector<std::string>& names) {
+EnsembleControls controls_of(const std::vector<std::string>& names, const SceneDescription& scene,
+                             const py::object& hands) {
     EnsembleControls controls;
+    if (py::isinstance<py::int_>(hands))
+        controls.hands.assign(py::cast<std::size_t>(hands), 0);
+    else
+        for (const py::handle cloth : py::iter(hands))
+            controls.hands.push_back(cloth_number(scene, py::reinterpret_borrow<py::object>(cloth)));
     for (const std::string& name : names) {
         if (name == "wind")
             controls.wind = true;
@@ -44,8 +59,12 @@ EnsembleControls controls_of(const std::vector<std::string>& names) {
             controls.pins = true;
         else if (name == "colliders")
             controls.colliders = true;
+        else if (name == "holds")
+            controls.holds = true;
+        else if (name == "gravity")
+            controls.gravity = true;
         else
-            throw py::value_error("controls are wind, pins and colliders, not '" + name + "'");
+            throw py::value_error("controls are wind, pins, colliders, holds and gravity, not '" + name + "'");
     }
     return controls;
 }
@@ -53,7 +72,8 @@ EnsembleControls controls_of(const std::vector<std::string>& names) {
 class PyEnsemble {
   public:
     PyEnsemble(const std::vector<SceneDescription>& scenes, const EnsembleOptions& options, const std::string& device,
-               bool validate) {
+               bool validate)
+        : hand_count_(options.controls.hands.size()) {
         const py::gil_scoped_release released;
         device_.emplace(device, validation_if(validate));
         ensemble_.emplace(scenes, options, *device_);
@@ -62,17 +82,47 @@ class PyEnsemble {
     const Ensemble& ensemble() const { return *ensemble_; }
     const Device& device() const { return *device_; }
 
-    void step(const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
-              const std::optional<Numbers>& colliders) {
+    void step(const Told& told) {
         const SceneDescription& scene = ensemble_->scene(0);
         std::size_t pin_count = 0;
         for (const Cloth& cloth : scene.cloths) pin_count += cloth.pins.size();
-        std::vector<double> wind_numbers, pin_numbers, collider_numbers;
-        if (wind) wind_numbers = numbers(*wind, "wind", {3}, 0);
-        if (pins) pin_numbers = numbers(*pins, "pins", {pin_count}, 6);
-        if (colliders) collider_numbers = numbers(*colliders, "colliders", {scene.colliders.size()}, 6);
+        std::vector<double> wind, pins, colliders, gravity, hands;
+        if (told.wind) wind = numbers(*told.wind, "wind", {3}, 0);
+        if (told.gravity) gravity = numbers(*told.gravity, "gravity", {3}, 0);
+        if (told.pins) pins = numbers(*told.pins, "pins", {pin_count}, 6);
+        if (told.colliders) colliders = numbers(*told.colliders, "colliders", {scene.colliders.size()}, 6);
+        if (told.hands) hands = numbers(*told.hands, "hands", {hand_count_}, 6);
+        std::vector<std::uint8_t> holds;
+        if (told.holds) holds = choices(*told.holds, pin_count);
+        std::vector<std::int32_t> grasps;
+        if (told.grasps) grasps = places(*told.grasps);
         const py::gil_scoped_release released;
-        ensemble_->step({wind_numbers, pin_numbers, collider_numbers});
+        ensemble_->step({wind, pins, colliders, holds, gravity, hands, grasps});
+    }
+
+    std::vector<std::uint8_t> choices(const Choices& array, std::size_t pin_count) const {
+        if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(0)) != ensemble_->size() ||
+            static_cast<std::size_t>(array.shape(1)) != pin_count)
+            throw ActionError(fmt::format("actions: holds: expected an array [{}, {}]", ensemble_->size(), pin_count),
+                              0);
+        return {array.data(), array.data() + array.size()};
+    }
+
+    /// Returns first column, first row, last column, last row, which are the same in entries of 2.
+    std::vector<std::int32_t> places(const Places& array) const {
+        const std::size_t last = array.ndim() == 3 ? static_cast<std::size_t>(array.shape(2)) : 0;
+        if ((last != 2 && last != 4) || static_cast<std::size_t>(array.shape(0)) != ensemble_->size() ||
+            static_cast<std::size_t>(array.shape(1)) != hand_count_)
+            throw ActionError(
+                fmt::format("actions: grasps: expected an array [{}, {}, 2 or 4]", ensemble_->size(), hand_count_), 0);
+        std::vector<std::int32_t> all;
+        for (std::size_t k = 0; k < ensemble_->size() * hand_count_; ++k)
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::int64_t number = array.data()[last * k + i % last];
+                all.push_back(number == static_cast<std::int32_t>(number) ? static_cast<std::int32_t>(number)
+                                                                          : INT32_MAX);
+            }
+        return all;
     }
 
     /// Returns [member, ...] numbers; with `key`, entries of 3 get no turns: the last 3 are 0.
@@ -94,6 +144,7 @@ class PyEnsemble {
     }
 
   private:
+    std::size_t hand_count_;
     std::optional<Device> device_;
     std::optional<Ensemble> ensemble_;
 };
@@ -166,13 +217,14 @@ py::array picture_of(const py::object& owner, std::size_t member) {
 }
 
 std::unique_ptr<PyEnsemble> make(const py::object& scene, const py::object& members, const std::string& device,
-                                 bool normals, const std::vector<std::string>& controls, const std::string& shown,
-                                 bool validate) {
+                                 bool normals, const std::vector<std::string>& controls, const py::object& hands,
+                                 const std::string& shown, bool validate) {
+    const Scene first = any_scene(scene);
     EnsembleOptions options;
     options.normals = normals;
-    options.controls = controls_of(controls);
+    options.controls = controls_of(controls, first.description, hands);
     options.view = picture_view(shown, {});
-    return std::make_unique<PyEnsemble>(scenes_of(any_scene(scene), members), options, device, validate);
+    return std::make_unique<PyEnsemble>(scenes_of(first, members), options, device, validate);
 }
 
 void define_member_states(py::class_<PyEnsemble>& ensemble) {
@@ -221,18 +273,32 @@ void define_ensemble(py::module_& module) {
     ensemble
         .def(
             py::init(&make), py::arg("scene"), py::arg("members"), py::kw_only(), py::arg("device") = "",
-            py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("view") = "shaded",
-            py::arg("validate") = false,
+            py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("hands") = 0,
+            py::arg("view") = "shaded", py::arg("validate") = false,
             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
-            "method. controls: what step() may be given: 'wind', 'pins', 'colliders'. All begin at frame 0.")
-        .def("step", &PyEnsemble::step, py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
-             py::arg("colliders") = py::none(),
-             "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
-             "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
-             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
-             "order. "
-             "What is not given stays as it is. Raises ActionError, and then no member went on.")
+            "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity'. hands: how "
+            "many "
+            "hands take particles of the first cloth, or the cloth of each. All begin at frame 0.")
+        .def(
+            "step",
+            [](PyEnsemble& self, const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
+               const std::optional<Numbers>& colliders, const std::optional<Choices>& holds,
+               const std::optional<Numbers>& gravity, const std::optional<Numbers>& hands,
+               const std::optional<Places>& grasps) {
+                self.step({wind, pins, colliders, gravity, hands, holds, grasps});
+            },
+            py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
+            py::arg("colliders") = py::none(), py::arg("holds") = py::none(), py::arg("gravity") = py::none(),
+            py::arg("hands") = py::none(), py::arg("grasps") = py::none(),
+            "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
+            "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
+            "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
+            "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
+            "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
+            "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
+            "and last column and row, in the order column, row, column, row; -1: none. "
+            "What is not given stays as it is. Raises ActionError, and then no member went on.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(
             "frames",

@@ -20,6 +20,11 @@ struct EnsembleControls {
     bool wind = false;       ///< scenes without wind then have it: at 0 m/s
     bool pins = false;       ///< every pin may be moved
     bool colliders = false;  ///< every collider may be moved
+    bool holds = false;      ///< every pin may let go and take again
+    bool gravity = false;    ///< gravity may change
+    /// Hands, which no scene has, may take particles: the cloth (by number) whose particles each can take. They hold
+    /// nothing at first.
+    std::vector<std::size_t> hands = {};
 };
 
 struct EnsembleOptions {
@@ -30,7 +35,8 @@ struct EnsembleOptions {
 };
 
 /// Members are to do this in a step, all of them, in order. An empty list leaves that as it is: as the scene has it, or
-/// where the last action put it. Numbers are finite.
+/// where the last action put it. Numbers are finite, and what holds cloth goes no farther in a step than the cloth's
+/// diagonal.
 struct EnsembleActions {
     std::span<const double> wind;  ///< [member, 3], m/s during the step; its gusts are over
     /// [member, pin, 6]: where the pins of all cloths, in order, are at the step's end, on the way there at constant
@@ -38,6 +44,18 @@ struct EnsembleActions {
     std::span<const double> pins;
     /// [member, collider, 6]: the same of the colliders, those of SceneDescription::colliders sorted by kind.
     std::span<const double> colliders;
+    /// [member, pin], not 0: the pin holds during the step; 0: it does not, and its particles go on with the velocity
+    /// that they have, as from a scene's `release`. A pin that takes its particles again holds them where they are,
+    /// from the start of the step on, and moves them with it from there. A scene's `release` is over.
+    std::span<const std::uint8_t> holds;
+    std::span<const double> gravity;  ///< [member, 3], m/s^2 during the step; the scene's keys of it are over
+    /// [member, hand, 6]: where the hands are at the step's end, as `pins`, but from the origin. A hand is at the first
+    /// place that it is given for all of that step.
+    std::span<const double> hands;
+    /// [member, hand, 4]: first column and row, last column and row of the particles that the hand holds during the
+    /// step; all -1: none. It takes them as `holds` says, from the start of the step on. A hand lets go before it takes
+    /// others, and takes none that a pin or another hand holds, or lets go in this step.
+    std::span<const std::int32_t> grasps;
 };
 
 /// Thrown for actions that cannot be taken, before any member goes on.

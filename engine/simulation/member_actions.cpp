@@ -1,0 +1,187 @@
+#include "simulation/member_actions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "world/motion.h"
+#include "world/weather.h"
+
+namespace drape {
+
+namespace {
+
+constexpr std::size_t numbers_of_key = 6;  // translate, rotate
+
+MotionKey key_of(double time, std::span<const double> numbers) {
+    return {time, {numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
+}
+
+/// Changes a path so that from `from` to `to` (s) it moves to a key at constant speed, from wherever it is at `from`.
+void go(MotionPath& path, double from, double to, std::span<const double> target) {
+    const MotionKey now = key_at(path, from), end = key_of(to, target);
+    // Keys beyond both ends make the cubic between the two times a straight line (world/motion.h).
+    const auto beyond = [&](double at, double share) {
+        MotionKey key{at, {}, {}};
+        for (std::size_t k = 0; k < 3; ++k) {
+            key.translate[k] = now.translate[k] + share * (end.translate[k] - now.translate[k]);
+            key.rotate[k] = now.rotate[k] + share * (end.rotate[k] - now.rotate[k]);
+        }
+        return key;
+    };
+    path.keys = {beyond(from - (to - from), -1), now, end, beyond(to + (to - from), 2)};
+}
+
+/// A member's step, and its part of the actions.
+class Acting {
+  public:
+    Acting(const EnsembleActions& actions, std::size_t number, Member& member)
+        : actions_(actions),
+          number_(number),
+          member_(member),
+          from_(member.frame / member.model.scene.time.fps),
+          to_((member.frame + 1) / member.model.scene.time.fps) {}
+
+    void blow() {
+        if (actions_.wind.empty()) return;
+        Wind& wind = member_.model.scene.wind;
+        wind.velocity = vector_of(actions_.wind);
+        wind.gust.amplitude = 0;
+        wind.keys.clear();
+    }
+
+    /// The steps were made for the gravity of time 0, and bounds know the strongest that there was, so both stay among
+    /// the keys.
+    void weigh() {
+        if (actions_.gravity.empty()) return;
+        constexpr double soon = 1e-9;
+        SceneDescription& scene = member_.model.scene;
+        const Vec3 start = gravity_at(scene, 0), strongest = strongest_gravity(scene);
+        scene.gravity_keys = {{0, start}, {soon, strongest}, {std::max(from_, 2 * soon), vector_of(actions_.gravity)}};
+    }
+
+    void move_pins() {
+        SimulationModel& model = member_.model;
+        std::size_t pin = 0;
+        for (std::size_t k = 0; k < model.cloths.size(); ++k) {
+            for (DynamicPin& each : model.cloths[k].dynamic_pins) {
+                if (each.hand) {
+                    move_hand(each);
+                    continue;
+                }
+                move_pin(each, number_ * pin_count(model) + pin + each.number);
+                model.scene.cloths[k].pins[each.number].path = each.path;
+            }
+            pin += model.scene.cloths[k].pins.size();
+        }
+        member_.pins_acted = member_.pins_acted || !actions_.pins.empty();
+    }
+
+    void move_colliders() {
+        SimulationModel& model = member_.model;
+        for (std::size_t k = 0; k < model.scene.colliders.size(); ++k) {
+            MotionPath& path = model.scene.colliders[k].path;
+            move(path, actions_.colliders, number_ * model.scene.colliders.size() + k, member_.colliders_acted);
+            for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = path;
+        }
+        member_.colliders_acted = member_.colliders_acted || !actions_.colliders.empty();
+    }
+
+  private:
+    Vec3 vector_of(std::span<const double> all) const {
+        return {all[3 * number_], all[3 * number_ + 1], all[3 * number_ + 2]};
+    }
+    void move(MotionPath& path, std::span<const double> numbers, std::size_t index, bool acted) const {
+        if (!numbers.empty())
+            go(path, from_, to_, numbers.subspan(numbers_of_key * index, numbers_of_key));
+        else if (acted)
+            path.keys = {key_at(path, from_)};  // it stays where the last action put it
+    }
+    void let_go(DynamicPin& pin, MotionPath before) const {
+        if (!pin.holds(from_)) return;
+        pin.release = from_;
+        pin.let_go = std::move(before);
+    }
+    void take(DynamicPin& pin) const {
+        if (!pin.holds(from_)) pin.follows = true;
+        pin.release.reset();
+        pin.let_go = {};
+    }
+    void move_pin(DynamicPin& pin, std::size_t index) const {
+        MotionPath before = pin.path;
+        move(pin.path, actions_.pins, index, member_.pins_acted);
+        if (actions_.holds.empty()) return;
+        if (actions_.holds[index] != 0)
+            take(pin);
+        else
+            let_go(pin, std::move(before));
+    }
+    void move_hand(DynamicPin& pin) const {
+        const std::size_t index = number_ * member_.model.options.hands.size() + *pin.hand;
+        MotionPath before = pin.path;
+        if (pin.path.keys.empty() && !actions_.hands.empty())
+            pin.path.keys = {key_of(from_, actions_.hands.subspan(numbers_of_key * index, numbers_of_key))};
+        else
+            move(pin.path, actions_.hands, index, !pin.path.keys.empty());
+        if (actions_.grasps.empty()) return;
+        const std::optional<IndexBox> grasp = grasp_of(actions_, index);
+        if (!grasp) return let_go(pin, std::move(before));
+        take(pin);
+        pin.held = *grasp;
+    }
+
+    const EnsembleActions& actions_;
+    std::size_t number_;
+    Member& member_;
+    double from_, to_;
+};
+
+}  // namespace
+
+bool acts(const EnsembleControls& controls) {
+    return controls.wind || controls.pins || controls.colliders || controls.holds || controls.gravity ||
+           !controls.hands.empty();
+}
+
+bool is_any(const EnsembleActions& actions) {
+    return !(actions.wind.empty() && actions.pins.empty() && actions.colliders.empty() && actions.holds.empty() &&
+             actions.gravity.empty() && actions.hands.empty() && actions.grasps.empty());
+}
+
+SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& controls) {
+    if (controls.pins || controls.holds)
+        for (Cloth& cloth : scene.cloths)
+            for (Pin& pin : cloth.pins)
+                if (pin.path.keys.empty()) pin.path.keys.push_back({});
+    if (controls.colliders)
+        for (Collider& collider : scene.colliders)
+            if (!collider.path.moves()) {
+                const MotionKey rest = key_at(collider.path, 0);
+                collider.path.keys = {rest, rest};
+                collider.path.keys[1].time = 1;
+            }
+    for (const std::size_t cloth : controls.hands)
+        if (cloth >= scene.cloths.size())
+            throw Error(
+                fmt::format("controls: a hand takes cloth {}; the cloths are 0 to {}", cloth, scene.cloths.size() - 1));
+    return scene;
+}
+
+ModelOptions controlled(ModelOptions options, const EnsembleControls& controls) {
+    options.air = options.air || controls.wind;
+    options.weight = controls.gravity;
+    options.holds = controls.holds;
+    options.hands = controls.hands;
+    options.acts = acts(controls);
+    return options;
+}
+
+void act(const EnsembleActions& actions, std::size_t number, Member& member) {
+    Acting acting(actions, number, member);
+    acting.blow();
+    acting.weigh();
+    acting.move_pins();
+    acting.move_colliders();
+}
+
+}  // namespace drape

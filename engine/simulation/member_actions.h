@@ -1,0 +1,27 @@
+// What an ensemble's members are told to do in a step: whether they can, and what it changes in their models.
+#pragma once
+
+#include "simulation/member.h"
+
+namespace drape {
+
+/// Returns whether members may be told anything.
+bool acts(const EnsembleControls& controls);
+/// Returns the scene with paths for all that these controls may move.
+SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& controls);
+/// Returns the options of a model that these controls may change.
+ModelOptions controlled(ModelOptions options, const EnsembleControls& controls);
+
+/// Returns the number of pins of all cloths.
+std::size_t pin_count(const SimulationModel& model);
+/// Returns the particles that a hand is to hold, `index` counting those of all members; nothing: none.
+std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t index);
+
+/// Throws ActionError where members cannot follow these actions.
+void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const Members& members);
+/// Applies a member's part of the actions to its model, for the next frame.
+void act(const EnsembleActions& actions, std::size_t number, Member& member);
+/// Returns whether there is anything to do.
+bool is_any(const EnsembleActions& actions);
+
+}  // namespace drape
