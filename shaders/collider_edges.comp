@@ -44,10 +44,10 @@ void read_boxes() {
 }
 #define EACH_BOX(WORK)                                                                                   \
     [[unroll]] for (int i = 0; i < min(boxes_end - spheres_end, early_box_count); ++i) {                 \
-        WORK(early_boxes[i])                                                                             \
+        WORK(early_boxes[i], spheres_end + i)                                                            \
     }                                                                                                    \
     if (boxes_end - spheres_end > early_box_count) { /* else lavapipe does not leave the loop out */     \
-        for (int i = spheres_end + early_box_count; i < boxes_end; ++i) { WORK(colliders[push.first + i]) }\
+        for (int i = spheres_end + early_box_count; i < boxes_end; ++i) { WORK(colliders[push.first + i], i) }\
     }
 
 bool near_edge_of(ColliderRecord collider, vec3 now) {
@@ -71,7 +71,7 @@ bool leads_into(ColliderRecord collider, ivec2 texel, vec3 now) {
     return below && near_mesh(local, plane, collider, push.contact.x);
 }
 
-#define NEAR_EDGE(collider) near = near || near_edge_of(collider, now);
+#define NEAR_EDGE(collider, number) near = near || near_edge_of(collider, now);
 /// Returns whether a particle may meet an edge of a box or a mesh. In the second round only particles may that were
 /// near one in the first, since the first round moved no others.
 bool may_meet(ivec2 texel, vec4 start, vec4 moved) {
@@ -103,8 +103,8 @@ uint copy_strip(int column, int first, int count) {
 }
 
 struct Led {
-    vec3 moved;    // displacement of a particle, m
-    bool touched;  // a collider moved it
+    vec3 moved;  // displacement of a particle, m
+    float by;    // 1 and the number of the collider that moved it last; 0: none did
 };
 
 /// Returns the place of a particle, or the place where the line from `far` through `end` goes on if there is none.
@@ -137,7 +137,7 @@ Taken taken_by_triangle(Taken taken, ivec2 texel, ivec2 next, ivec2 last, CutCor
                          line_of(texel, last, a.local, c.local, collider), collider, push.contact.w);
 }
 
-Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near, bool is_mesh) {
+Led led_by(ColliderRecord collider, int number, ivec2 texel, vec4 start, Led led, bool near, bool is_mesh) {
     vec3 local = local_point(collider, moved_position(start.xyz, led.moved));
     Taken taken = Taken(vec3(0.0f, 0.0f, 0.0f), 0.0f);
     vec4 plane = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -163,31 +163,32 @@ Led led_by(ColliderRecord collider, ivec2 texel, vec4 start, Led led, bool near,
         if (is_mesh) surface = mesh_displacement(collider, local);
     vec2 own = skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.zy);
     vec3 moved = taken_displacement(led.moved, taken, surface, collider, own.y);
-    bool touched = led.touched || ordered_dot(taken.by, taken.by) > 0.0f;
+    bool touched = ordered_dot(taken.by, taken.by) > 0.0f;
     if (again && near && !is_mesh) {
         vec3 bent = bent_contact(collider, start.xyz, moved, normal_across(texel, local, collider), push.contact.x,
                                  own.x, own.y);
         touched = touched || bent != moved;
         moved = bent;
     }
-    return Led(moved, touched);
+    return Led(moved, touched ? float(number + 1) : led.by);
 }
 
 bool near_now(ColliderRecord collider, vec4 start, Led led) {
     return near_edge_of(collider, moved_position(start.xyz, led.moved));
 }
 
-#define LED_BY(collider) led = led_by(collider, texel, start, led, near_now(collider, start, led), false);
-/// Returns a particle's displacement after all boxes and meshes, with 1 in w if one of them moved it, otherwise -1.
+#define LED_BY(collider, number) \
+    led = led_by(collider, number, texel, start, led, near_now(collider, start, led), false);
+/// Returns a particle's displacement after all boxes and meshes, with Led's `by` in w if one moved it, otherwise -1.
 vec4 led_by_all(ivec2 texel) {
     vec4 start = LOAD(position, texel), before = LOAD(displacement, texel);
-    Led led = Led(before.xyz, again && before.w > 0.0f);
+    Led led = Led(before.xyz, again && before.w > 0.0f ? before.w : 0.0f);
     EACH_BOX(LED_BY)
     if (has_meshes) {
         for (int i = capsules_end; i < meshes_end; ++i)
-            led = led_by(colliders[push.first + i], texel, start, led, true, true);
+            led = led_by(colliders[push.first + i], i, texel, start, led, true, true);
     }
-    return vec4(led.moved, led.touched ? 1.0f : -1.0f);
+    return vec4(led.moved, led.by > 0.0f ? led.by : -1.0f);
 }
 
 void main() {

@@ -3,13 +3,18 @@
 // `second_order` the cloth continues in backward Euler substeps (include/bdf2.h). With `after_edges`, the pass starts
 // from what collider_edges.comp left. Where `supporting`, it stores the surfaces on which particles lie, for contact
 // between cloths. With `after_impulses` it does that too, starts from the displacements that contact between cloths
-// left on their sheet, and writes the result there as well.
+// left on their sheet, and writes the result there as well. Where it `books`, it sums what each collider gives.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/line_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
+layout(constant_id = 28) const bool books = false;
+#define ON_CONTACT(number, contact, before) \
+    if (books && contact.depth > 0.0f) take(number, given_by_collider(contact.displacement, contact.led, before));
+void take(int number, vec3 given);
+#include "include/impulses.h"
 #include "include/contacts.h"
 #include "include/push.h"
 
@@ -36,6 +41,8 @@ VECTOR_OUT(12, displacements_out);
 layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
 layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
 TRIPLE_OUT(10, position_out);  // not with `after_impulses`
+#define IMPULSES_SLOT 16
+#include "include/book_impulses.h"
 
 vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }
 
@@ -73,7 +80,7 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
 }
 
 /// Returns the displacement with which a particle comes to the colliders; w is above 0 if an edge of a collider moved
-/// it.
+/// it: 1 and the collider's number.
 vec4 led_displacement(ivec2 texel, vec4 moved) {
     if (after_edges) return LOAD(lifted, texel);
     return vec4(moved.xyz, 0.0f);
@@ -132,6 +139,55 @@ uint late_rows(Strip strip) {
     return rows;
 }
 
+/// What colliders give to the motion of a particle, m: of more than three, the last also has what those beyond give.
+const int most_givers = 3;
+struct Given {
+    int number;
+    vec3 motion;
+} givers[most_givers];
+
+void take(int number, vec3 given) {
+    bool taken = false;
+    [[unroll]] for (int k = 0; k < most_givers; ++k) {
+        bool here = !taken && (givers[k].number == number || givers[k].number < 0 || k == most_givers - 1);
+        if (here) givers[k].number = givers[k].number < 0 ? number : givers[k].number;
+        if (here) givers[k].motion = moved_position(givers[k].motion, given);
+        taken = taken || here;
+    }
+}
+
+void take_from_nobody() {
+    [[unroll]] for (int k = 0; k < most_givers; ++k) givers[k] = Given(-1, vec3(0.0f));
+}
+
+/// The sums of what a collider gave to particles of the strip, and the collider.
+float units;
+int giver = -1;
+ImpulseSum impulse = no_impulse(), moment = no_impulse();
+
+void book_giver() {
+    if (giver < 0) return;
+    book(impulse_first + giver, 0, impulse);
+    book(impulse_first + giver, 3, moment);
+    impulse = no_impulse();
+    moment = no_impulse();
+}
+
+/// Adds what colliders gave to a particle, whose displacement was `displacement` then, to the sums.
+void add_given(vec4 start, vec3 displacement) {
+    float mass = reciprocal(start.w);
+    [[unroll]] for (int k = 0; k < most_givers; ++k) {
+        if (givers[k].number < 0) continue;
+        if (givers[k].number != giver) book_giver();
+        giver = givers[k].number;
+        ColliderRecord collider = colliders[push.first + giver];
+        vec3 centre = vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+        impulse = with_impulse(impulse, impulse_of_motion(givers[k].motion, mass), units);
+        moment = with_impulse(
+            moment, impulse_of_motion(moment_about(start.xyz, displacement, centre, givers[k].motion), mass), units);
+    }
+}
+
 /// Makes the cloth continue in backward Euler substeps. Reading first avoids an atomic, since most particles that come
 /// here find the hold set.
 void hold_order() {
@@ -146,6 +202,8 @@ bool meet_all(ivec2 texel, bool follows) {
     vec3 displacement = led.xyz;
     vec2 own = skin_at(texel);
     bool touched = led.w > 0.0f, went_far = false;
+    if (books) take_from_nobody();
+    if (books && touched) take(int(led.w) - 1, given_by_collider(led.xyz, vec3(0.0f), moved.xyz));
     // The way out of one collider may lead into another, so this repeats until nothing is touched any more.
     int round = 0;
     vec3 normal = vec3(0.0f);
@@ -164,6 +222,7 @@ bool meet_all(ivec2 texel, bool follows) {
     } while (round < round_count);
     if (went_far && !follows) return false;
     if (!touched) return true;
+    if (books) add_given(start, displacement);
     vec3 made = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f
                     ? led_out(texel, start, displacement, way_out)
                     : displacement;
@@ -187,6 +246,7 @@ bool meet_all(ivec2 texel, bool follows) {
 void main() {
     push.first = given.first + push.list;
     read_colliders(push.first);
+    if (books) units = impulse_units();
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
@@ -202,4 +262,5 @@ void main() {
         if (far != 0u) meet_all(ivec2(column, first + findLSB(far)), true);
         far &= max(far, 1u) - 1u;
     } while (far != 0u);
+    if (books) book_giver();
 }

@@ -1,7 +1,7 @@
 // This pass finds the force of the air on each particle, which is that on its up to four quarters of cells. An
 // invocation goes down some adjacent columns of particles and keeps the rows above and below, so that most particles
 // are loaded once. Where `masked`, an image says which quarters and neighbours a particle has (holes, cuts). Where
-// gravity changes, what it is more than at the start is a force here, too.
+// gravity changes, what it is more than at the start is a force here, too. Where it `books`, it sums the air's forces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -20,6 +20,9 @@ CLOTH_CONSTANTS(WindPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 VECTOR_OUT(2, wind_force);
+layout(constant_id = 28) const bool books = false;
+#define IMPULSES_SLOT 5
+#include "include/book_impulses.h"
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 layout(constant_id = 24) const bool masked = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D air;
@@ -34,6 +37,8 @@ struct Row {
 
 vec3 wind_velocity, more_gravity;
 int first_column;
+float per_newton;                   // units of impulse of a newton
+ImpulseSum by_air = no_impulse();  // on the invocation's particles
 
 /// Loads a row; past the grid's border, the row on the border again.
 Row load_row(int y) {
@@ -68,6 +73,7 @@ void store_row(Row above, Row row, Row below, int y) {
         }
         WindForce sum = particle_wind_force(edges, felt, relative, push.inverse_step, push.drag_coefficient,
                                             push.lift_coefficient, push.spacing);
+        if (books) by_air = with_impulse(by_air, sum.force, per_newton);
         if (weighs) sum.force = add_weight(sum.force, more_gravity, push.inner_mass, LOAD(position, texel).w);
         STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
     }
@@ -77,6 +83,7 @@ void main() {
     int inputs = (push.first + given.substep) * (weighs ? 2 : 1);
     wind_velocity = wind[inputs].xyz;  // before anything branches (docs/devices.md)
     if (weighs) more_gravity = wind[inputs + 1].xyz;
+    if (books) per_newton = units_per_newton(impulse_units(), push.inverse_step, push.inner_mass);
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
     int y = int(gl_GlobalInvocationID.y) * strip_rows, end = min(y + strip_rows, push.grid.y);
     if (first_column >= push.grid.x || y >= end) return;
@@ -89,4 +96,5 @@ void main() {
         ++y;
         if (y >= end) break;
     }
+    if (books) book(impulse_air, 0, by_air);
 }

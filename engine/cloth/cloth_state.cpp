@@ -6,6 +6,7 @@
 
 #include "cloth/air.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/forces.h"
 #include "shared/bend_types.h"
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
@@ -21,6 +22,9 @@ using Context = const FieldContext&;
 using Bytes = std::vector<std::byte>;
 
 bool always(Context) { return true; }
+bool tells_forces(Context c) { return c.model.scene.forces; }
+bool splits_pins(Context c) { return drape::splits_pins(c.model.scene); }
+std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool windy(Context c) { return c.model.windy; }
@@ -34,7 +38,7 @@ bool second_order(Context c) { return c.cloth.scheme.second_order; }
 bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.compares_states(); }
 /// Contact ends every frame with its velocity, which spares its passes a form without.
-bool keeps_excess(Context c) { return judged(c) || c.model.self_contact; }
+bool keeps_excess(Context c) { return judged(c) || c.model.self_contact || c.model.scene.forces; }
 bool keeps_before(Context c) {
     return second_order(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
 }
@@ -47,7 +51,8 @@ bool has_own_skin(Context c) { return !c.cloth.skin.empty() && !c.model.scene.co
 bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
-    const bool stretch_error = direction < stretch_direction_count && (judged(c) || c.model.adaptive());
+    const bool stretch_error =
+        direction < stretch_direction_count && (judged(c) || c.model.adaptive() || (splits_pins(c) && !gathers(c)));
     return c.cloth.scheme.carries_tension[direction] || stretch_error;
 }
 bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
@@ -59,6 +64,7 @@ FieldExtent spring_list(Context c) {
 FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
+FieldExtent impulse_table(Context c) { return {glsl::impulse_columns, impulse_row_count(c.model.scene)}; }
 FieldExtent torque_list(Context c) { return {glsl::torque_texels, torque_count(c.cloth.grid)}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
@@ -121,6 +127,9 @@ std::vector<FieldRow> motion_rows() {
          [](Context) { return FieldExtent{glsl::paid_texels}; }},
         {Field::angular_error, "angular error", image, vector, state, rotates, one},
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
+        {Field::impulses, "impulses", image, integer, state, tells_forces, impulse_table},
+        {Field::pin_numbers, "pin numbers", image, integer, constant, splits_pins, particles,
+         [](Context c) { return bytes_of_list(pin_numbers(c.model, index_of(c))); }},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},
         {Field::lifted, "lifted", stored, vector, frame, cut_by_edges, particles},
         {Field::support, "support", image, vector, state, meets_on_colliders, particles},

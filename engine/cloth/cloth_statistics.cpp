@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "cloth/forces.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/texels.h"
 #include "world/weather.h"
@@ -78,7 +79,8 @@ std::vector<float> mass_shares(const ClothModel& cloth) {
 }
 
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
-                                 const glsl::StatisticsRecord& record, std::uint32_t frame) {
+                                 const glsl::StatisticsRecord& record, std::uint32_t frame,
+                                 std::span<const std::byte> impulses) {
     const double h = cloth.substep_length;
     const glsl::vec4 reference = statistics_reference(cloth);
     ClothStatistics statistics;
@@ -102,6 +104,9 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
         statistics.potential_energy -= statistics.mass * gravity[k] * statistics.center_of_mass[k];
     }
     set_momenta(cloth, record, frame / model.scene.time.fps, statistics);
+    if (!impulses.empty())
+        statistics.forces = cloth_forces(model, static_cast<std::size_t>(&cloth - model.cloths.data()), impulses,
+                                         statistics.mass, frame);
     if (!model.scene.colliders.empty()) {
         statistics.penetration = record.extents.z;
         statistics.deepest = particle_of(record.places.z);

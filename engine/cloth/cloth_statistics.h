@@ -2,6 +2,8 @@
 // functions turn the record's numbers into ones with units.
 #pragma once
 
+#include <span>
+
 #include "cloth/simulation_model.h"
 #include "drape/statistics.h"
 #include "shared/statistics_types.h"
@@ -18,8 +20,10 @@ glsl::vec4 statistics_reference(const ClothModel& cloth);
 std::vector<float> mass_shares(const ClothModel& cloth);
 
 /// Returns the statistics with units; the potential energy uses the frame's gravity. Frame 0 is given by the scene: no
-/// solver has applied a force, so it has no stretch error.
+/// solver has applied a force, so it has no stretch error. `impulses`: the cloth's sums of the frame, where the scene
+/// wants forces.
 ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel& cloth,
-                                 const glsl::StatisticsRecord& record, std::uint32_t frame = 1);
+                                 const glsl::StatisticsRecord& record, std::uint32_t frame = 1,
+                                 std::span<const std::byte> impulses = {});
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cloth/cloth_state.h"
+#include "cloth/forces.h"
 #include "cloth/texels.h"
 
 namespace drape {
@@ -103,6 +104,7 @@ class ContactSteps {
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})
             add_one(kind);
         add_impulses(false);
+        if (model_.scene.forces && model_.cloths.size() > 1) add_for_cloths(StepKind::self_impulses);
         if (is_last()) add_impulses(true);
         if (!model_.scene.colliders.empty()) collide();
         for (int round = 0; round < glsl::self_rounds; ++round) add_one(StepKind::self_limit, round);
@@ -163,10 +165,27 @@ class ContactSteps {
     std::vector<Step>& steps_;
 };
 
+/// Adds each cloth's momentum to the frame's impulses, or takes it from them (`sign`).
+void add_momenta(const SimulationModel& model, float sign, std::vector<Step>& steps) {
+    if (!model.scene.forces) return;
+    const std::uint32_t substep = sign < 0 ? 0 : model.scene.solver.substeps;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        steps.push_back({StepKind::momentum, cloth, substep, 0, momentum_push(model, model.cloths[cloth], sign)});
+}
+
+void add_begin_of_impulses(const SimulationModel& model, std::vector<Step>& steps) {
+    if (!model.scene.forces) return;
+    const glsl::ClearImpulsesPush push{static_cast<int>(impulse_row_count(model.scene)), impulse_units(model)};
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        steps.push_back({StepKind::clear_impulses, cloth, 0, 0, push});
+    add_momenta(model, -1, steps);
+}
+
 }  // namespace
 
 std::vector<Step> frame_steps(const SimulationModel& model) {
     std::vector<Step> steps;
+    add_begin_of_impulses(model, steps);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
@@ -174,6 +193,7 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
         if (model.self_contact) ContactSteps(model, substep, steps).add();
     }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
+    add_momenta(model, 1, steps);
     return steps;
 }
 

@@ -140,7 +140,7 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
             if (auto found = cloth_difference(key, fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k]))
                 return found;
     for (const Difference& found :
-         {differ("/time/fps", first.time.fps, other.time.fps),
+         {differ("/time/fps", first.time.fps, other.time.fps), differ("/forces", first.forces, other.forces),
           differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
           differ("/wind", blows(first), blows(other)), differ("/gravity_keys", weight(first), weight(other)),
           differ("/cutters", fmt::format("a list of {}", first.cutters.size()),

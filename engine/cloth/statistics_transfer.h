@@ -1,9 +1,36 @@
 // Stores the statistics of a frame in a saved state.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/byte_stream.h"
 #include "drape/statistics.h"
 
 namespace drape {
+
+/// Writes or reads the forces on a cloth.
+template <class Archive>
+void transfer_forces(Archive& archive, std::vector<ForceOnCloth>& forces) {
+    std::vector<std::string> by;
+    std::vector<double> numbers, moments;
+    for (const ForceOnCloth& each : forces) {
+        by.push_back(each.by);
+        numbers.insert(numbers.end(), each.force.begin(), each.force.end());
+        if (each.moment) moments.insert(moments.end(), each.moment->begin(), each.moment->end());
+        if (!each.moment) moments.insert(moments.end(), 3, std::numeric_limits<double>::quiet_NaN());
+    }
+    archive(by, numbers, moments);
+    if (numbers.size() != 3 * by.size() || moments.size() != 3 * by.size()) throw Error("its forces do not fit");
+    forces.clear();
+    for (std::size_t k = 0; k < by.size(); ++k) {
+        ForceOnCloth& each = forces.emplace_back();
+        each.by = by[k];
+        std::copy_n(&numbers[3 * k], 3, each.force.begin());
+        if (!std::isnan(moments[3 * k])) std::copy_n(&moments[3 * k], 3, each.moment.emplace().begin());
+    }
+}
 
 /// Writes or reads a cloth's statistics, by a ByteWriter or a ByteReader (byte_stream.h).
 template <class Archive>
@@ -16,6 +43,7 @@ void transfer_statistics(Archive& archive, ClothStatistics& s) {
             s.center_of_mass[0], s.center_of_mass[1], s.center_of_mass[2], s.penetration, s.largest_distance,
             s.largest_speed, s.iteration_count, s.non_finite_count, s.first_non_finite, s.farthest, s.fastest,
             s.deepest, s.most_stretched);
+    transfer_forces(archive, s.forces);
 }
 
 }  // namespace drape

@@ -9,6 +9,7 @@
 
 #include "drape/kernels.h"
 #include "shared/bend_types.h"
+#include "shared/impulse_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/rotation_types.h"
@@ -46,6 +47,8 @@ enum class StepKind {
     residual,
     decide,
     advance,
+    clear_impulses,
+    momentum,
     self_gather,
     self_boxes,
     self_tree,
@@ -58,6 +61,7 @@ enum class StepKind {
     self_begin,
     self_contact,
     self_push,
+    self_impulses,
     self_limit,
     self_return,
     self_couples,
@@ -71,7 +75,7 @@ using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
-                 glsl::ContactTurnPush>;
+                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

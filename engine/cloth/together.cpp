@@ -154,6 +154,9 @@ struct StructureOf {
         structure.paid = push.paid;
         return structure;
     }
+    StepConstants operator()(const glsl::MomentumPush& push) const {
+        return glsl::MomentumPush{push.grid, push.sign, 0, sign(push.rest_length), {}};
+    }
     template <class Other>
     StepConstants operator()(const Other& other) const {
         return other;
@@ -183,7 +186,10 @@ bool in_images(const Step& step) {
         case StepKind::tether:
         case StepKind::collider_edges:
         case StepKind::collide:
+        case StepKind::clear_impulses:
+        case StepKind::momentum:
         case StepKind::self_gather:
+        case StepKind::self_impulses:
         case StepKind::self_return:
         case StepKind::self_couples:
         case StepKind::self_turn:

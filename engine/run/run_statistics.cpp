@@ -19,6 +19,14 @@ void add_strain(FrameValues& values, const std::string& name, const StrainStatis
     values[name + "_min"] = strain.smallest;
 }
 
+void add_force(FrameValues& values, const std::string& cloth, const ForceOnCloth& of) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const char axis = "xyz"[k];
+        values[fmt::format("{}/force_{}_{}_n", cloth, of.by, axis)] = of.force[k];
+        if (of.moment) values[fmt::format("{}/moment_{}_{}_n_m", cloth, of.by, axis)] = (*of.moment)[k];
+    }
+}
+
 void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatistics& statistics) {
     add_strain(values, cloth + "/stretch", statistics.stretch);
     add_strain(values, cloth + "/shear", statistics.shear);
@@ -37,6 +45,7 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
         values[fmt::format("{}/momentum_{}_kg_m_s", cloth, axis)] = statistics.momentum[k];
         values[fmt::format("{}/angular_momentum_{}_kg_m2_s", cloth, axis)] = statistics.angular_momentum[k];
     }
+    for (const ForceOnCloth& each : statistics.forces) add_force(values, cloth, each);
     values[cloth + "/angular_error_kg_m2_s"] = length(statistics.angular_error);
     values[cloth + "/distance_max_m"] = statistics.largest_distance;
     values[cloth + "/speed_max_m_s"] = statistics.largest_speed;

@@ -214,6 +214,25 @@ void check_overlaps(const SceneNode& cloths, const SceneDescription& scene) {
     }
 }
 
+constexpr std::size_t most_force_pins = 1000;
+
+/// What holds a cloth is told apart among its pins by what its springs bear, which rigid ones do not say.
+void check_forces(const SceneNode& node, const SceneDescription& scene) {
+    if (!scene.forces) return;
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        if (cloth.stiffness.rigid && cloth.pins.size() > 1)
+            node.element(i)
+                .member("stiffness")
+                .fail(
+                    "expected springs with a stiffness, by which forces are told apart among several pins, got "
+                    "\"rigid\"");
+        if (cloth.pins.size() > most_force_pins)
+            node.element(i).member("pins").fail(
+                fmt::format("expected at most {} pins where the scene tells forces", most_force_pins));
+    }
+}
+
 }  // namespace
 
 Value<std::string> file_name() {
@@ -318,6 +337,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
+    if (members.fit({"cloths", "forces"})) check_forces(node, scene);
     if (members.fit({"cloths", "solver"})) check_tear_limits(node, scene);
     warn_of_doubts(members, scene);
     return !members.fit({"time", "gravity", "gravity_keys", "cloths", "solver"}) || check_fall(members, scene);

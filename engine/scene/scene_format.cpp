@@ -453,6 +453,9 @@ const Object<SceneDescription> scene{
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
+        {"forces", &SceneDescription::forces, boolean(),
+         "Whether the numbers of each frame tell the forces on each cloth: at each of its pins, of each collider, of "
+         "gravity, air, damping and other cloths."},
         {"camera", &SceneDescription::camera, optional<Camera>(camera),
          "The camera. Absent: one that holds the cloths where they start, hang and land, and the colliders."},
         {"lights", &SceneDescription::lights,

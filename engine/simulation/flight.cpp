@@ -58,17 +58,6 @@ void write_changes(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight
     write_changes(graphs.layout(), graphs.pool(), slot, all);
 }
 
-std::vector<ClothStatistics> statistics_in(const SimulationModel& run, std::uint32_t frame,
-                                           std::span<const std::span<const std::byte>> records) {
-    std::vector<ClothStatistics> all;
-    for (std::size_t cloth = 0; cloth < run.cloths.size(); ++cloth) {
-        glsl::StatisticsRecord record;
-        std::memcpy(&record, records[cloth].data(), sizeof record);
-        all.push_back(cloth_statistics(run, run.cloths[cloth], record, frame));
-    }
-    return all;
-}
-
 /// What the device read back of all cloths, and the velocities computed from it.
 struct Arrays {
     std::vector<std::span<const float>> positions, normals, moved, excess;
@@ -135,8 +124,8 @@ std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, 
     const std::size_t each = graphs.cloths_each();
     const bool counts = flight.contents.counts, meets = flight.contents.simulates && graphs.joint().self_contact;
     const bool differs = compares(flight.work().before) || compares(flight.work().after);
-    std::vector<std::span<const std::byte>> records;
-    if (counts && !is_single) records = statistics_records(layout, pool, slot);
+    std::vector<StatisticsBytes> bytes;
+    if (counts && !is_single) bytes = statistics_bytes(layout, pool, slot);
     std::vector<double> differences;
     if (differs) differences = read_differences(layout, pool, slot);
     const double list_use = meets ? self_list_use(layout, self_record(layout, pool, slot)) : 0;
@@ -148,7 +137,7 @@ std::vector<WorkResult> flight_results(FrameGraphs& graphs, std::uint32_t slot, 
         const SimulationModel& run = graphs.member_at(member, flight.contents.substeps);
         const auto own = [&](const auto& all) { return std::span(all).subspan(member * each, each); };
         if (counts && is_single) result.statistics = read_statistics(layout, pool, slot, frame, run);
-        if (counts && !is_single) result.statistics = statistics_in(run, frame, own(records));
+        if (counts && !is_single) result.statistics = statistics_from(own(bytes), frame, run);
         if (differs) result.differences.assign(own(differences).begin(), own(differences).end());
         if (meets) result.contact = self_record_of(layout, pool, slot, member);
         result.list_use = list_use;

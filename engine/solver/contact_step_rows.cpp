@@ -84,6 +84,7 @@ std::vector<StepRow> contact_step_rows() {
         of_all(self_begin, "self begin", "self_begin.comp", found<glsl::self_size_contact>),
         contact,
         push,
+        of_cloth(self_impulses, "impulses of contact", "self_impulses.comp"),
         of_all(self_limit, "self limit", "self_limit.comp", found_in_round<glsl::self_size_limit>),
         returned,
         {self_couples, "self couples", {{plain, "self_couples.comp", over_torque_sums}}},

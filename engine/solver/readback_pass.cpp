@@ -9,19 +9,25 @@ std::string readback_name(const std::string& state, std::string_view what) {
 }
 
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what) {
-    const Grid& grid = state.model->grid;
+    add_image_readback(graph, state.pass_name(std::string(what) + " readback", "readback"), image,
+                       readback_name(state.name, what));
+}
+
+void add_image_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle image,
+                        const std::string& host_name) {
+    const graph::ImageDeclaration whole = graph.resources()[image.resource].image;
+    const std::uint64_t texel = whole.format == VK_FORMAT_R32G32B32A32_SFLOAT ? sizeof(glsl::vec4) : sizeof(glsl::uint);
     const graph::Handle empty =
-        graph.buffer({readback_name(state.name, what), grid.particle_count() * state.count() * sizeof(glsl::vec4),
-                      graph::Lifetime::host_output});
+        graph.buffer({host_name, whole.width * whole.height * texel, graph::Lifetime::host_output});
     // The execute function is made before set-up runs, so it holds the place where the handle will be.
     const auto target = std::make_shared<graph::Handle>();
     graph.add_pass(
-        state.pass_name(std::string(what) + " readback", "readback"),
+        name,
         [&](graph::PassSetup& setup) {
             setup.read(image, graph::Access::transfer_read);
             *target = setup.write(empty, graph::Access::transfer_write);
         },
-        [image, target, width = grid.columns(), height = grid.rows() * state.count()](graph::PassContext& context) {
+        [image, target, width = whole.width, height = whole.height](graph::PassContext& context) {
             const VkBufferImageCopy region{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {width, height, 1}};
             vkCmdCopyImageToBuffer(context.commands(), context.image(image).handle(), VK_IMAGE_LAYOUT_GENERAL,
                                    context.buffer(*target).handle(), 1, &region);

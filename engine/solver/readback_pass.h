@@ -12,6 +12,10 @@ std::string readback_name(const std::string& state, std::string_view what);
 /// Copies an image of four floats per particle, the cloths' `what`, into a host_output buffer.
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what);
 
+/// Copies a whole image into a host_output buffer called `host_name`, row by row.
+void add_image_readback(graph::Graph& graph, const graph::PassName& name, graph::Handle image,
+                        const std::string& host_name);
+
 /// Returns what the slot's last frame read back of each cloth, particle by particle.
 std::vector<std::span<const float>> read_back(const ClothLayout& layout, const graph::ResourcePool& pool,
                                               std::uint32_t slot, std::string_view what);

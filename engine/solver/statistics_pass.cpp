@@ -16,6 +16,15 @@ std::uint32_t strip_count(const Grid& grid) {
     return (grid.rows() + rows - 1) / rows;
 }
 
+std::string impulse_readback_name(const std::string& state) { return state + "/impulses on the host"; }
+
+/// Returns each cloth's sums of the frame's impulses; empty ones where the scene does not want forces.
+std::vector<std::span<const std::byte>> impulse_sums(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                                     std::uint32_t slot) {
+    if (layout.model.scene.forces) return layout.parts(pool, slot, impulse_readback_name);
+    return std::vector<std::span<const std::byte>>(layout.model.cloths.size());
+}
+
 std::string iteration_readback_name(const std::string& state) { return state + "/iterations on the host"; }
 
 /// Adds the tension that steps of a method do not keep.
@@ -90,29 +99,45 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name),
                                                                       state.count(), graph::Lifetime::host_output);
     add_sum(graph, pipelines, state, "statistics sum", records, chunks > 1 ? chunks : partials, result);
+    if (state[Field::impulses].valid())
+        add_image_readback(graph, state.pass_name("impulse readback", "statistics"), state[Field::impulses],
+                           impulse_readback_name(state.name));
     if (model.adaptive())
         add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
                             glsl::iteration_size_count * sizeof(glsl::uvec4), sizeof(glsl::uvec4),
                             iteration_readback_name(state.name));
 }
 
-std::vector<std::span<const std::byte>> statistics_records(const ClothLayout& layout, const graph::ResourcePool& pool,
-                                                           std::uint32_t slot) {
-    return layout.parts(pool, slot, statistics_readback_name);
+std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                              std::uint32_t slot) {
+    const std::vector<std::span<const std::byte>> records = layout.parts(pool, slot, statistics_readback_name),
+                                                  impulses = impulse_sums(layout, pool, slot);
+    std::vector<StatisticsBytes> all;
+    for (std::size_t cloth = 0; cloth < records.size(); ++cloth) all.push_back({records[cloth], impulses[cloth]});
+    return all;
+}
+
+std::vector<ClothStatistics> statistics_from(std::span<const StatisticsBytes> bytes, std::uint32_t frame,
+                                             const SimulationModel& run) {
+    std::vector<ClothStatistics> all;
+    for (const ClothModel& cloth : run.cloths) {
+        const StatisticsBytes& own = bytes[all.size()];
+        glsl::StatisticsRecord record;
+        std::memcpy(&record, own.record.data(), sizeof record);
+        all.push_back(cloth_statistics(run, cloth, record, frame, own.impulses));
+    }
+    return all;
 }
 
 std::vector<ClothStatistics> read_statistics(const ClothLayout& layout, const graph::ResourcePool& pool,
                                              std::uint32_t slot, std::uint32_t frame, const SimulationModel& run) {
-    std::vector<ClothStatistics> all;
-    const std::vector<std::span<const std::byte>> records = statistics_records(layout, pool, slot);
-    for (const ClothModel& cloth : run.cloths) {
-        glsl::StatisticsRecord record;
-        std::memcpy(&record, records[all.size()].data(), sizeof record);
-        all.push_back(cloth_statistics(run, cloth, record, frame));
-        if (!run.adaptive()) continue;
+    std::vector<ClothStatistics> all = statistics_from(statistics_bytes(layout, pool, slot), frame, run);
+    if (!run.adaptive()) return all;
+    for (std::size_t cloth = 0; cloth < all.size(); ++cloth) {
         glsl::uvec4 used;
-        std::memcpy(&used, pool.buffer(iteration_readback_name(cloth.name), slot).mapped().data(), sizeof used);
-        all.back().iteration_count = used.x;
+        const std::string name = iteration_readback_name(run.cloths[cloth].name);
+        std::memcpy(&used, pool.buffer(name, slot).mapped().data(), sizeof used);
+        all[cloth].iteration_count = used.x;
     }
     return all;
 }

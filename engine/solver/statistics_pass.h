@@ -15,9 +15,16 @@ std::string statistics_readback_name(const std::string& state);
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
 
-/// Returns the bytes of each cloth's record, where the slot's last finished frame has left them.
-std::vector<std::span<const std::byte>> statistics_records(const ClothLayout& layout, const graph::ResourcePool& pool,
-                                                           std::uint32_t slot);
+/// What the device leaves of a cloth: its record, and the sums of its impulses where the scene wants forces.
+struct StatisticsBytes {
+    std::span<const std::byte> record, impulses;
+};
+/// Returns what the slot's last finished frame has left of each cloth.
+std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                              std::uint32_t slot);
+/// Returns the statistics of the cloths of a run.
+std::vector<ClothStatistics> statistics_from(std::span<const StatisticsBytes> bytes, std::uint32_t frame,
+                                             const SimulationModel& run);
 /// Returns each cloth's statistics of the slot's last finished frame, which is `frame`.
 std::vector<ClothStatistics> read_statistics(const ClothLayout& layout, const graph::ResourcePool& pool,
                                              std::uint32_t slot, std::uint32_t frame, const SimulationModel& run);

@@ -3,6 +3,7 @@
 
 #include "cloth/cyclic_lines.h"
 #include "cloth/directions.h"
+#include "cloth/forces.h"
 #include "cloth/kernel_steps.h"
 #include "solver/step_size.h"
 
@@ -48,6 +49,14 @@ bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_be
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
 
+/// Returns the directions of springs whose tension is known when a frame begins and ends: explicit steps keep none.
+std::uint32_t known_tensions(Place p) {
+    std::uint32_t bits = 0;
+    for (std::size_t d = 0; d < spring_directions.size(); ++d)
+        if (!p.scheme().spare_state && has(p, tension_of(d))) bits |= 1u << d;
+    return bits;
+}
+
 struct ConstantRow {
     std::string_view name;
     std::uint32_t (*value)(Place);
@@ -60,6 +69,7 @@ constexpr ConstantRow constant_rows[] = {
     {"after_impulses", [](Place p) { return p.step.after_impulses ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"bends", [](Place p) { return p.step.push<glsl::LinePush>().bend > 0 ? 1u : 0u; }},
+    {"books", [](Place p) { return p.model.scene.forces ? 1u : 0u; }},
     {"buffered", [](Place p) { return buffered(p) ? 1u : 0u; }},
     {"carries_tension", [](Place p) { return carries_tension(p) ? 1u : 0u; }},
     {"carries_to_release", [](Place p) { return p.scheme().release_stiffness.x > 0 ? 1u : 0u; }},
@@ -70,12 +80,14 @@ constexpr ConstantRow constant_rows[] = {
     {"directions", direction_bits},
     {"ends_frame", [](Place p) { return p.step.last ? 1u : 0u; }},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
+    {"first_pin_row", [](Place p) { return first_pin_row(p.model.scene); }},
     {"first_iteration", [](Place p) { return p.step.iteration == 0 ? 1u : 0u; }},
     {"halo", [](Place p) { return tile_of(p.step.kind, p.cloth->model->grid).halo; }},
     {"has_bend", [](Place p) { return p.step.push<glsl::ExplicitPush>().twist > 0 ? 1u : 0u; }},
     {"has_shear", [](Place p) { return p.step.push<glsl::ExplicitPush>().relative_stiffness.z > 0 ? 1u : 0u; }},
     {"has_skin", [](Place p) { return (*p.cloth)[Field::skin].valid() ? 1u : 0u; }},
     {"has_skins", [](Place p) { return (*p.contact)[ContactField::skins].valid() ? 1u : 0u; }},
+    {"impulse_rows", [](Place p) { return impulse_row_count(p.model.scene); }},
     {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
     {"local_size_x", group_width},
@@ -87,6 +99,7 @@ constexpr ConstantRow constant_rows[] = {
     {"pays_ahead", [](Place p) { return p.step.last && p.step.substep > 0 && has(p, Field::paid) ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
+    {"splits", [](Place p) { return splits_pins(p.model.scene) ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},
     {"stores_stretch_tension", [](Place p) { return stores_stretch_tension(p) ? 1u : 0u; }},
     {"stores_tension", [](Place p) { return stores_tension(p) ? 1u : 0u; }},
@@ -96,6 +109,7 @@ constexpr ConstantRow constant_rows[] = {
     {vulkan::subgroup_constant, [](Place p) { return p.step.subgroup; }},
     {"supported", [](Place p) { return p.model.scene.colliders.empty() ? 0u : 1u; }},
     {"supporting", [](Place p) { return p.step.supporting || p.step.after_impulses ? 1u : 0u; }},
+    {"tensions", known_tensions},
     {"turns", [](Place p) { return p.step.turns ? 1u : 0u; }},
     {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
     {"wide", [](Place p) { return p.device.wide_atomics() ? 1u : 0u; }},

@@ -188,6 +188,8 @@ std::vector<StepRow> other_rows() {
         {StepKind::residual, "residual", {{plain, "residual.comp", over_residual_strips}}, residual_push},
         {StepKind::decide, "iteration decision", {{plain, "iteration_decision.comp", one_invocation}}, decide_push},
         {StepKind::advance, "advance", {{plain, "advance.comp", over_strips}}, grid_push, turns_home, before_alias},
+        {StepKind::clear_impulses, "impulses", {{plain, "clear_impulses.comp", one_workgroup}}},
+        {StepKind::momentum, "momentum", {{plain, "momentum.comp", over_strips}}},
     };
 }
 // clang-format on

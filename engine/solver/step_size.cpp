@@ -87,6 +87,10 @@ DispatchSize one_invocation(const StepPlace& place, const ComputePipeline&) {
     return {1, 1, place.cloth ? place.cloth->count() : 1};
 }
 
+DispatchSize one_workgroup(const StepPlace& place, const ComputePipeline&) {
+    return of_cloths(place, glsl::workgroup_width, 1);
+}
+
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&) {
     return of_cloths(place, whole(grid_of(place).x), whole(grid_of(place).y));
 }

@@ -67,9 +67,13 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
 #define NEAR(kind, collider)                          \
     near = near || !beyond_reach(kind, collider, now, \
                                  way_reach(kind, size_of(collider), length, collider.way_out.w, thickness));
+#ifndef ON_CONTACT
+#define ON_CONTACT(number, contact, before)  // what the includer does with a contact, before the displacement changes
+#endif
 #define CONTACT(kind, collider)                                                                                       \
     went_far = went_far || goes_far(kind, size_of(collider), length_of(displacement), collider.way_out.w, thickness); \
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, follows);  \
+    ON_CONTACT(i, contact, displacement)                                                                              \
     if (in_turn) displacement = contact.displacement;                                                                 \
     normal = contact.depth > deepest ? contact.normal : normal;                                                       \
     grip = contact.depth > deepest ? contact.grip : grip;                                                             \

@@ -1,8 +1,10 @@
 // A run leaves the same bytes every time, the frames that were asked for, and arrays that NumPy reads.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "base/vectors.h"
 #include "program.h"
 #include "scenes.h"
 
@@ -80,6 +82,45 @@ TEST(Results, EveryFrameStatesItsStatistics) {
     EXPECT_GT(statistics[2]["sheet/stretch_rms"].asDouble(), statistics[0]["sheet/stretch_rms"].asDouble());
     EXPECT_GT(statistics[2]["sheet/stretch_max"].asDouble(), statistics[2]["sheet/stretch_rms"].asDouble());
     EXPECT_LT(statistics[2]["potential_energy_j"].asDouble(), statistics[0]["potential_energy_j"].asDouble());
+}
+
+/// Returns the vector whose coordinates have a name with x, y and z in the place of `#`.
+Vec3 vector_of(const Json::Value& numbers, std::string name) {
+    Vec3 vector{};
+    const std::size_t at = name.find('#');
+    for (std::size_t k = 0; k < 3; ++k) {
+        name[at] = "xyz"[k];
+        vector[k] = numbers[name].asDouble();
+    }
+    return vector;
+}
+
+TEST(Results, ForcesByMethodAutoAddUpToTheChangeOfMomentum) {
+    const SceneFolder folder(R"({"time": {"fps": 60, "frames": 46}, "forces": true, "wind": {"velocity": [1, 0, 1]},
+        "cloths": [{"name": "sheet", "grid": [13, 13], "size": [0.4, 0.4], "damping": 0.5,
+                    "placement": {"origin": [-0.2, 0.3, -0.2], "u": [1, 0, 0], "v": [0, 0, 1]},
+                    "pins": [{"box": [[0, 0], [3, 0]]}, {"at": [12, 0]}]}],
+        "colliders": {"spheres": [{"center": [0, 0, 0.05], "radius": 0.1}]}})");
+    run({"simulate", folder.scene(), "-o", folder.out("a"), "-q"});
+    const Json::Value statistics = lasting_manifest(folder / "a")["statistics"];
+    double touched = 0, worst = 0;
+    for (Json::ArrayIndex k = 1; k < statistics.size(); ++k) {
+        Vec3 sum{};
+        double largest = 0;
+        for (const char* by : {"gravity", "pins_0", "pins_1", "air", "damping", "collider_0_sphere"}) {
+            const Vec3 force = vector_of(statistics[k], fmt::format("sheet/force_{}_#_n", by));
+            sum = plus(sum, force);
+            largest = std::max(largest, length(force));
+        }
+        const auto momentum = [&](Json::ArrayIndex of) { return vector_of(statistics[of], "sheet/momentum_#_kg_m_s"); };
+        worst = std::max(worst, length(minus(sum, times(60, minus(momentum(k), momentum(k - 1))))) / largest);
+        touched = std::max(touched, vector_of(statistics[k], "sheet/force_collider_0_sphere_#_n")[1]);
+        EXPECT_TRUE(statistics[k]["sheet/moment_collider_0_sphere_x_n_m"].isNumeric());
+    }
+    EXPECT_EQ(statistics.size(), 46u);
+    EXPECT_GT(touched, 0.01);
+    EXPECT_LT(worst, 1e-4);
+    EXPECT_FALSE(statistics[0].isMember("sheet/force_gravity_y_n"));
 }
 
 TEST(Results, NothingMovesInASleepingFrame) {

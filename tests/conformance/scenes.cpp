@@ -143,6 +143,12 @@ SceneDescription slit(SolverMethod method, std::uint32_t substeps) {
     return scene;
 }
 
+/// Of these, sums of impulses do not round as devices divide.
+SceneDescription telling_forces(SceneDescription scene) {
+    scene.forces = true;
+    return scene;
+}
+
 SceneDescription crumpling(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = fold(17, 0.5, method, substeps);
     scene.cloths[0].velocity = {0, -4, 0};
@@ -216,6 +222,8 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"ContactOfLayers", layers(line, 6), 12},
         {"ContactOfLayersWithMaps", with_maps(layers(line, 6)), 12},
         {"ContactParting", parting(line, 5), 0},
+        {"ForcesInFlight", telling_forces(flying(false)), 5},
+        {"ForcesOfParting", telling_forces(parting(line, 5)), 0},
     };
     return scenes;
 }

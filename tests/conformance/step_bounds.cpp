@@ -39,6 +39,8 @@ const std::vector<StepBound>& step_bounds() {
         {residual, 16, fixed, 0, "a root and a division, squared"},
         {decide, 0, fixed, 0, "integers; no scene is near its tolerance"},
         {advance, 8, fixed, 0, "a division and a root"},
+        {clear_impulses, 0, fixed, 0, "zeros"},
+        {momentum, 0, fixed, 0, "products, and sums of integers; no scene has what rounds otherwise"},
         {self_gather, 8, fixed, 0, "copies, and two divisions of the motion that others are measured against"},
         {self_boxes, 8, fixed, 0, "the motion of self_gather"},
         {self_tree, -1, fixed, 0, "the twin tries all pairs: the list that comes of it is judged at self_pairs"},
@@ -52,6 +54,7 @@ const std::vector<StepBound>& step_bounds() {
         {self_begin, 128, fixed, 0, "three divisions and a root of a distance that is a part of the edges"},
         {self_contact, 128, fixed, 0, "as self_begin"},
         {self_push, 16, fixed, 0, "of the sums, which are integers"},
+        {self_impulses, 0, fixed, 0, "as momentum"},
         // A corner that moves along its plane makes all of its motion or none: where the other side takes all the room
         // it is held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
         {self_limit, 128, fixed, 10, "as self_begin; what moves along a plane goes towards it or not by rounding"},

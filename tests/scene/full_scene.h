@@ -57,6 +57,7 @@ inline constexpr const char* full_scene =
     R"json(/tests/scene/box_pose_#.obj", "frames_per_second": 12.5, "frames_start": 0.25, "loop": true,
                 "friction": 0.8, "rotate": [2, 4, 6], "color": [0.6, 0.1, 0.2], "path": [{"t": 5}]}]},
   "overlap": "refuse",
+  "forces": true,
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],
   "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01, "tolerance_worst": 0.2, "tolerance_motion": 0.03, "estimate_error": true, "strain_damping": 0.05, "tethers": true},
   "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},

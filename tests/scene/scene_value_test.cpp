@@ -36,6 +36,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     const std::vector<VectorKey> wind_keys{{0, {1, 2, 2}}, {0.5, {0, 4, 3}}};
     EXPECT_EQ(scene.wind, (Wind{{3, 0, 4}, {2, 1.5, 7}, 1.1, 0.9, 0.4, wind_keys}));
     EXPECT_EQ(scene.overlap, Overlap::refuse);
+    EXPECT_TRUE(scene.forces);
     EXPECT_EQ(scene.solver,
               (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, true, CollideWhen::substep, true, 0.05}));
     EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));

@@ -11,6 +11,7 @@
 #include "cloth/texels.h"
 #include "twin/kernels.h"
 #include "twin/triangles_around.h"
+#include "twin/twin_impulses.h"
 
 namespace drape {
 
@@ -143,6 +144,7 @@ void run_wind(const TwinPlace& where) {
     const vec3 velocity = xyz(inputs.wind[own]);
     const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
+    TwinImpulses impulses(state);
     const auto now = [&](std::size_t index) {
         const vec3 start = xyz(state[Field::position][index]);
         return advance ? start + xyz(state[Field::displacement][index]) : start;
@@ -164,6 +166,9 @@ void run_wind(const TwinPlace& where) {
             }
             WindForce sum = particle_wind_force(edges, air, relative, push.inverse_step, push.drag_coefficient,
                                                 push.lift_coefficient, push.spacing);
+            if (impulses.are_wanted())
+                impulses.add(impulse_air, 0, sum.force,
+                             units_per_newton(impulses.units(), push.inverse_step, push.inner_mass));
             if (scene.weighs)
                 sum.force = add_weight(sum.force, xyz(inputs.wind[own + 1]), push.inner_mass,
                                        state[Field::position][particle].w);
@@ -280,9 +285,9 @@ using StepFunction = void (*)(const TwinPlace&);
 StepFunction function_of(StepKind kind) {
     static const std::map<StepKind, StepFunction> functions = [] {
         std::map<StepKind, StepFunction> all;
-        for (const auto& rows :
-             {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(),
-              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows()})
+        for (const auto& rows : {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(),
+                                 twin_nested_rows(), twin_bend_rows(), twin_contact_rows(), twin_check_rows(),
+                                 twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows()})
             for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
         return all;
     }();

@@ -133,7 +133,7 @@ struct TwinRow {
     void (*run)(const TwinPlace&);
 };
 std::vector<TwinRow> twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(), twin_bend_rows(),
-    twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows();
+    twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows();
 
 class Twin {
   public:

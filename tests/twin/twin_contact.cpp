@@ -6,6 +6,7 @@
 #include "twin/mesh_twin.h"
 #include "twin/triangles_around.h"
 #include "twin/twin.h"
+#include "twin/twin_impulses.h"
 
 namespace drape {
 
@@ -91,7 +92,7 @@ void run_collider_edges(const TwinPlace& where) {
             const std::size_t i = edges.place({x, y});
             const vec4 start = state[Field::position][i];
             vec3 moved = xyz(state[edges.from][i]);
-            bool touched = step.after_edges && state[edges.from][i].w > 0.0f;
+            float by = step.after_edges && state[edges.from][i].w > 0.0f ? state[edges.from][i].w : 0.0f;
             for (std::size_t k = 0; k < colliders.size(); ++k) {
                 const ColliderRecord& collider = inputs.colliders[first + k];
                 const int kind = colliders[k].kind();
@@ -101,15 +102,15 @@ void run_collider_edges(const TwinPlace& where) {
                 const vec3 surface = kind == kind_mesh ? mesh_displacement(collider, local, edges.fields)
                                                        : surface_displacement(collider, local);
                 moved = taken_displacement(moved, taken, surface, collider, model.skin_of(i).y);
-                touched = touched || ordered_dot(taken.by, taken.by) > 0.0f;
+                if (ordered_dot(taken.by, taken.by) > 0.0f) by = static_cast<float>(k + 1);
                 if (!step.after_edges || kind == kind_mesh) continue;
                 const vec3 bent =
                     bent_contact(collider, xyz(start), moved, edges.normal_across({x, y}, local, collider),
                                  edges.push.contact.x, model.skin_of(i).x, model.skin_of(i).y, edges.fields);
-                touched = touched || bent.x != moved.x || bent.y != moved.y || bent.z != moved.z;
+                if (bent.x != moved.x || bent.y != moved.y || bent.z != moved.z) by = static_cast<float>(k + 1);
                 moved = bent;
             }
-            state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, touched ? 1.0f : 0.0f);
+            state[step.after_edges ? Field::lifted : Field::lifted_once][i] = texel(moved, by);
         }
 }
 
@@ -152,6 +153,7 @@ void run_collide(const TwinPlace& where) {
     const CollisionPush& push = model.collision;
     const auto first = static_cast<std::size_t>(first_collider(scene, model, step.substep));
     const float recovery = step.leading ? push.contact.w : 0.0f;
+    TwinImpulses impulses(state);
     const std::shared_ptr<const std::vector<vec4>> moving = twin_fields(scene, inputs);
     const vec4* const fields = moving ? moving->data() : scene.mesh_fields.data();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
@@ -160,6 +162,10 @@ void run_collide(const TwinPlace& where) {
         const vec2 skin = model.skin_of(i);
         vec3 displacement = displacement_before_colliders(where, i), way_out{};
         bool touched = step.after_edges && state[Field::lifted][i].w > 0.0f;
+        TwinGivers givers;
+        if (touched && impulses.are_wanted())
+            givers.take(static_cast<int>(state[Field::lifted][i].w) - 1,
+                        given_by_collider(displacement, {0, 0, 0}, xyz(state[Field::displacement][i])));
         vec3 lies_on{};
         vec4 on_grip{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
@@ -169,6 +175,9 @@ void run_collide(const TwinPlace& where) {
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact = collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k],
                                                          start, displacement, skin.x, skin.y, recovery, true, fields);
+                if (contact.depth > 0.0f)
+                    givers.take(static_cast<int>(k),
+                                given_by_collider(contact.displacement, contact.led, displacement));
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;
@@ -181,6 +190,8 @@ void run_collide(const TwinPlace& where) {
             if (!(deepest > push.contact.z)) break;
         }
         if (!touched) continue;
+        if (impulses.are_wanted())
+            givers.book(impulses, &inputs.colliders[first], state[Field::position][i], displacement);
         const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
         const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
         const bool lies = step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f);

@@ -56,8 +56,8 @@ std::vector<ClothStatistics> TwinLoop::statistics(Twin& twin, std::uint32_t fram
     std::vector<ClothStatistics> all;
     for (std::size_t cloth = 0; cloth < run.cloths.size(); ++cloth) {
         if (run.cloths[cloth].scheme.gathered_tension) twin.tension(cloth);
-        all.push_back(
-            cloth_statistics(run, run.cloths[cloth], twin_statistics(run, cloth, twin.cloth(cloth), inputs), frame));
+        all.push_back(cloth_statistics(run, run.cloths[cloth], twin_statistics(run, cloth, twin.cloth(cloth), inputs),
+                                       frame, std::as_bytes(std::span(twin.cloth(cloth).integers(Field::impulses)))));
     }
     return all;
 }

@@ -440,6 +440,7 @@ struct SceneDescription {
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
     SolverSettings solver;
+    bool forces = false;                                      ///< statistics tell what pulls and pushes each cloth
     std::optional<Camera> camera;                             ///< without one picture/framing.h finds one
     std::vector<DirectionalLight> lights = default_lights();  ///< at most 4
     Vec3 ambient{0.36, 0.40, 0.47};                           ///< light of the sky, linear radiance factor 0..1

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace drape {
 
@@ -14,6 +16,13 @@ struct StrainStatistics {
     double rms = 0;
     double largest = 0;   ///< most stretched
     double smallest = 0;  ///< most compressed (negative)
+};
+
+/// What pulled or pushed a cloth in a frame, averaged over it.
+struct ForceOnCloth {
+    std::string by;  ///< as in the names of the manifest's numbers: "gravity", "pins_0", "collider_2_sphere"
+    std::array<double, 3> force{};                  ///< N
+    std::optional<std::array<double, 3>> moment{};  ///< N m, of a collider, about its centre
 };
 
 /// Values are in SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a
@@ -33,6 +42,9 @@ struct ClothStatistics {
     std::array<double, 3> angular_momentum{};
     /// kg m^2/s: what the method made of it in this frame out of nothing, and took back by turning the cloth.
     std::array<double, 3> angular_error{};
+    /// Where the scene wants `forces`, from frame 1 on: all that changed the momentum in the frame, so the sum times
+    /// the frame's time is that change.
+    std::vector<ForceOnCloth> forces;
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
     /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.

@@ -1,0 +1,258 @@
+#include "cloth/forces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <ranges>
+
+#include "base/vectors.h"
+#include "cloth/directions.h"
+#include "cloth/texels.h"
+#include "world/weather.h"
+
+namespace drape {
+
+namespace {
+
+bool is_held(const ClothModel& cloth) {
+    for (std::size_t i = 0; i < cloth.position.size(); ++i)
+        if (cloth.position[i].w == 0 && cloth.free_weight[i] > 0) return true;
+    return false;
+}
+
+bool meets_others(const SimulationModel& model) { return model.self_contact && model.scene.cloths.size() > 1; }
+
+std::size_t most_pins(const SceneDescription& scene) {
+    std::size_t most = 0;
+    for (const Cloth& cloth : scene.cloths) most = std::max(most, cloth.pins.size());
+    return most;
+}
+
+/// Impulse, N s, and its moment, N m s.
+struct Impulse {
+    Vec3 given{}, moment{};
+};
+
+/// Reads the sums of a frame.
+class Impulses {
+  public:
+    Impulses(std::span<const std::byte> bytes, const ClothModel& cloth)
+        : bytes_(bytes),
+          unit_(cloth.inner_mass / cloth.substep_length / units()),
+          damped_(damping_mean(cloth.damping, cloth.substep_length)) {}
+
+    Vec3 vector(std::size_t row, std::size_t first, double unit) const {
+        return times(unit, {number(row, first), number(row, first + 1), number(row, first + 2)});
+    }
+    Impulse at(std::size_t row) const { return {vector(row, 0, unit_), vector(row, 3, unit_)}; }
+    /// Returns what was given to motions, of whose forces damping leaves a share in a substep: of gravity too, which
+    /// contact at rest opposes.
+    Impulse contact(std::size_t row) const {
+        return {vector(row, 0, unit_ / damped_), vector(row, 3, unit_ / damped_)};
+    }
+    /// Returns by how much the momentum changed in the frame, kg m/s.
+    Vec3 change() const { return vector(glsl::impulse_momentum, 0, unit_); }
+    /// Returns the motion of the free particles times their masses, in those of an inner particle, m.
+    Vec3 travel() const { return vector(glsl::impulse_momentum, 3, 1.0 / double{glsl::travel_units}); }
+
+  private:
+    glsl::uint word(std::size_t row, std::size_t column) const {
+        glsl::uint value = 0;
+        std::memcpy(&value, &bytes_[(row * glsl::impulse_columns + column) * sizeof value], sizeof value);
+        return value;
+    }
+    double units() const { return double{glsl::uintBitsToFloat(word(glsl::impulse_head, 0))}; }
+    double number(std::size_t row, std::size_t place) const {
+        const std::uint64_t low = word(row, 2 * place), high = word(row, 2 * place + 1);
+        return static_cast<double>(static_cast<std::int64_t>(high << 32 | low));
+    }
+
+    std::span<const std::byte> bytes_;
+    double unit_;    ///< kg m/s of a unit
+    double damped_;  ///< the share that damping leaves
+};
+
+/// Returns gravity's impulse on a kilogram in a frame, m/s, as substeps take it: at their middles.
+Vec3 fall(const SimulationModel& model, std::uint32_t frame) {
+    const double length = 1 / model.scene.time.fps, substep = length / model.scene.solver.substeps;
+    Vec3 sum{};
+    for (std::uint32_t k = 0; k < model.scene.solver.substeps; ++k)
+        sum = plus(sum, times(substep, gravity_at(model.scene, (frame - 1) * length + (k + 0.5) * substep)));
+    return sum;
+}
+
+/// Returns what a source gave to a cloth of this mass, kg. `fallen`: what gravity gave to a kilogram, m/s.
+Impulse given_by(const ForceSource& source, const SimulationModel& model, const ClothModel& cloth, const Impulses& sums,
+                 double mass, const Vec3& fallen) {
+    switch (source.cause) {
+        case ForceCause::gravity:
+            return {times(mass, fallen), {}};
+        case ForceCause::damping:
+            return {times(-cloth.damping * cloth.inner_mass, sums.travel()), {}};
+        case ForceCause::air:
+            return sums.at(glsl::impulse_air);
+        case ForceCause::other_cloths:
+            return sums.contact(glsl::impulse_cloths);
+        case ForceCause::colliders:
+            return sums.contact(glsl::impulse_first + source.number);
+        case ForceCause::pins:
+            return sums.at(first_pin_row(model.scene) + source.number);
+    }
+    return {};
+}
+
+/// Returns by pin what share of a frame it holds its particles.
+double held_share(const SceneDescription& scene, const Pin& pin, std::uint32_t frame) {
+    return pin.release ? std::clamp(*pin.release * scene.time.fps - (frame - 1), 0.0, 1.0) : 1.0;
+}
+
+/// Returns the mass, kg, that each pin of a cloth holds, on average over a frame.
+std::vector<double> held_masses(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
+    const ClothModel& cloth = model.cloths[index];
+    const std::vector<Pin>& pins = model.scene.cloths[index].pins;
+    const std::vector<glsl::uint> numbers = pin_numbers(model, index);
+    std::vector<double> masses(pins.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] > 0 && cloth.free_weight[i] > 0)
+            masses[numbers[i] - 1] += cloth.inner_mass / double{cloth.free_weight[i]};
+    for (std::size_t pin = 0; pin < pins.size(); ++pin) masses[pin] *= held_share(model.scene, pins[pin], frame);
+    return masses;
+}
+
+/// The impulses of a frame on a cloth, by source.
+struct Account {
+    const std::vector<ForceSource>& sources;
+    std::vector<Impulse> impulses{};
+    Vec3 left{};                 ///< what they leave of the change of momentum
+    std::vector<double> held{};  ///< kg, by pin
+
+    void add(const Impulse& impulse) {
+        impulses.push_back({{}, impulse.moment});
+        give(impulses.size() - 1, impulse.given);
+    }
+    void give(std::size_t k, const Vec3& more) {
+        impulses[k].given = plus(impulses[k].given, more);
+        left = minus(left, more);
+    }
+    bool holds(const ForceSource& each) const { return each.cause == ForceCause::pins && held[each.number] > 0; }
+    /// Whether a source may have given what is left: pins, which also bear the motion and the air of what they hold;
+    /// without pins air, and what was felt of colliders and other cloths; where nothing else acts, damping.
+    bool may_take(std::size_t k) const {
+        const auto any = [&](const auto& is) {
+            return std::ranges::any_of(std::views::iota(std::size_t{0}, sources.size()), is);
+        };
+        const auto is_held = [&](std::size_t of) { return holds(sources[of]); };
+        const auto acts = [&](std::size_t of) {
+            const ForceCause cause = sources[of].cause;
+            const bool touches = cause == ForceCause::colliders || cause == ForceCause::other_cloths;
+            return cause == ForceCause::air || (touches && length(impulses[of].given) > 0);
+        };
+        if (any(is_held)) return is_held(k);
+        return any(acts) ? acts(k) : sources[k].cause == ForceCause::damping;
+    }
+    /// Gives what is left to those that may take it, to each as much as its impulse is of all.
+    void close() {
+        double sum = 0;
+        std::vector<std::size_t> takers;
+        for (std::size_t k = 0; k < sources.size(); ++k)
+            if (may_take(k)) {
+                takers.push_back(k);
+                sum += length(impulses[k].given);
+            }
+        const Vec3 all = left;
+        for (const std::size_t k : takers)
+            give(k, times(sum > 0 ? length(impulses[k].given) / sum : 1.0 / static_cast<double>(takers.size()), all));
+    }
+};
+
+}  // namespace
+
+std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t index) {
+    const ClothModel& cloth = model.cloths[index];
+    const SceneDescription& scene = model.scene;
+    std::vector<ForceSource> all;
+    const auto add = [&](bool acts, ForceCause cause, const char* name) {
+        if (acts) all.push_back({cause, 0, name});
+    };
+    add(length(strongest_gravity(scene)) > 0, ForceCause::gravity, "gravity");
+    if (is_held(cloth))
+        for (std::size_t k = 0; k < scene.cloths[index].pins.size(); ++k)
+            all.push_back({ForceCause::pins, k, fmt::format("pins_{}", k)});
+    add(scene.wind.blows() || model.options.air, ForceCause::air, "air");
+    add(cloth.damping > 0, ForceCause::damping, "damping");
+    for (std::size_t k = 0; k < scene.colliders.size(); ++k)
+        all.push_back({ForceCause::colliders, k,
+                       fmt::format("collider_{}_{}", k, collider_names[scene.colliders[k].shape.index()])});
+    add(meets_others(model), ForceCause::other_cloths, "other_cloths");
+    return all;
+}
+
+std::uint32_t first_pin_row(const SceneDescription& scene) {
+    return static_cast<std::uint32_t>(glsl::impulse_first + scene.colliders.size());
+}
+
+std::uint32_t impulse_row_count(const SceneDescription& scene) {
+    return first_pin_row(scene) + static_cast<std::uint32_t>(most_pins(scene));
+}
+
+float impulse_units(const SimulationModel& model) {
+    const double substep = 1 / (model.scene.time.fps * model.scene.solver.substeps);
+    return static_cast<float>(0x1p20 / (substep * substep));
+}
+
+bool splits_pins(const SceneDescription& scene) { return scene.forces && most_pins(scene) > 1; }
+
+std::vector<glsl::uint> pin_numbers(const SimulationModel& model, std::size_t index) {
+    const ClothModel& cloth = model.cloths[index];
+    const std::vector<Pin>& pins = model.scene.cloths[index].pins;
+    std::vector<glsl::uint> numbers(cloth.grid.particle_count());
+    // A later pin overrides an earlier one on the particles that they share, as in ClothGeometry.
+    for (std::size_t pin = 0; pin < pins.size(); ++pin) {
+        const IndexBox& box = pins[pin].particles;
+        for (std::uint32_t row = box.first[1]; row <= box.last[1]; ++row)
+            for (std::uint32_t column = box.first[0]; column <= box.last[0]; ++column)
+                numbers[cloth.grid.particle(column, row)] = static_cast<glsl::uint>(pin + 1);
+    }
+    return numbers;
+}
+
+glsl::MomentumPush momentum_push(const SimulationModel& model, const ClothModel& cloth, float sign) {
+    glsl::MomentumPush push{cloth.grid.size(), sign, cloth.compression, {}, {}};
+    const double frame = 1 / model.scene.time.fps;
+    for (std::size_t direction = 0; direction < spring_directions.size(); ++direction) {
+        const double stiffness = cloth.scheme.used_stiffness[direction];
+        if (stiffness == 0 || !std::isfinite(stiffness)) continue;
+        component(push.rest_length, direction) = static_cast<float>(cloth.stiffness_constant.rest_length[direction]);
+        component(push.pull, direction) =
+            static_cast<float>(0.5 * stiffness * frame * cloth.substep_length / cloth.inner_mass);
+    }
+    return push;
+}
+
+std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t index,
+                                       std::span<const std::byte> bytes, double mass, std::uint32_t frame) {
+    if (frame == 0) return {};
+    const ClothModel& cloth = model.cloths[index];
+    const std::vector<ForceSource> sources = force_sources(model, index);
+    const Impulses sums(bytes, cloth);
+    const Vec3 fallen = fall(model, frame);
+    Account account{sources, {}, sums.change(), held_masses(model, index, frame)};
+    for (const ForceSource& source : sources) {
+        account.add(given_by(source, model, cloth, sums, mass, fallen));
+        if (source.cause == ForceCause::pins)
+            account.give(account.impulses.size() - 1, times(-account.held[source.number], fallen));
+    }
+    account.close();
+    std::vector<ForceOnCloth> forces;
+    const double per_second = model.scene.time.fps;
+    for (std::size_t k = 0; k < sources.size(); ++k) {
+        const Impulse& own = account.impulses[k];
+        forces.push_back({sources[k].name, times(per_second, own.given), std::nullopt});
+        if (sources[k].cause == ForceCause::colliders) forces.back().moment = times(per_second, own.moment);
+    }
+    return forces;
+}
+
+}  // namespace drape

@@ -1,0 +1,103 @@
+// Impulses are summed as integers, each particle's part rounded by itself, so that the order in which a device adds them
+// changes no bit.
+#ifndef DRAPE_IMPULSES_H
+#define DRAPE_IMPULSES_H
+
+#include "include/spring.h"
+#include "shared/impulse_types.h"
+
+/// A 64-bit integer.
+struct ImpulseWords {
+    uint low, high;
+};
+
+/// A vector of them.
+struct ImpulseSum {
+    ImpulseWords x, y, z;
+};
+
+SHARED ImpulseWords words_sum(ImpulseWords a, ImpulseWords b) {
+    uint low = a.low + b.low;
+    return ImpulseWords(low, a.high + b.high + (low < a.low ? 1u : 0u));
+}
+
+SHARED ImpulseSum no_impulse() {
+    ImpulseWords none = ImpulseWords(0u, 0u);
+    return ImpulseSum(none, none, none);
+}
+
+/// Returns the integer nearest to a number; 0 for what no integer holds.
+SHARED ImpulseWords impulse_words(float number) {
+    precise float size = abs(number);
+    if (!(size < 4.0e18f)) return ImpulseWords(0u, 0u);
+    precise float in_high = size * 2.3283064365386963e-10f;  // 2^-32
+    uint high = uint(in_high);
+    precise float rest = size - float(high) * 4294967296.0f + 0.5f;
+    uint low = uint(rest);
+    if (number >= 0.0f) return ImpulseWords(low, high);
+    return ImpulseWords(~low + 1u, ~high + (low == 0u ? 1u : 0u));
+}
+
+/// Returns a particle's momentum, its mass in units of an inner particle's times h, m. `excess`: of end_velocity.h.
+SHARED vec3 momentum_of(vec3 displacement, vec3 excess, float mass) {
+    precise vec3 momentum = (displacement + excess) * mass;
+    return momentum;
+}
+
+SHARED vec3 moment_of_mass(vec3 position, float mass) {
+    precise vec3 moment = position * mass;
+    return moment;
+}
+
+/// Returns the sum with a particle's part, of which each unit of `units` counts.
+SHARED ImpulseSum with_impulse(ImpulseSum sum, vec3 part, float units) {
+    precise vec3 scaled = part * units;
+    return ImpulseSum(words_sum(sum.x, impulse_words(scaled.x)), words_sum(sum.y, impulse_words(scaled.y)),
+                      words_sum(sum.z, impulse_words(scaled.z)));
+}
+
+/// Returns the sum of what a pin gives to a cloth with what holds one spring of its particle, from which `edge` leads.
+/// `tension`: its extension of its whole stiffness, m; `pull`: of MomentumPush, for this spring.
+SHARED vec3 with_held_spring(vec3 sum, vec3 edge, float tension, float pull) {
+    precise float squared = ordered_dot(edge, edge);
+    if (!(squared > 0.0f)) return sum;
+    precise vec3 held = sum - edge * (tension * pull / sqrt(squared));
+    return held;
+}
+
+/// Returns the tension that balances a spring, m.
+SHARED float tension_of_edge(vec3 edge, float rest_length, float compression) {
+    precise float excess = sqrt(ordered_dot(edge, edge)) - rest_length;
+    return balancing_tension(excess, compression);
+}
+
+/// Returns the units to a newton that acts for a substep.
+SHARED float units_per_newton(float units, float inverse_step, float inner_mass) {
+    precise float per_newton = units / (inverse_step * inverse_step * inner_mass);
+    return per_newton;
+}
+
+/// Returns what a collider gives to a particle's motion in a substep, without what leads it out of an overlap, m.
+SHARED vec3 given_by_collider(vec3 after, vec3 led, vec3 before) {
+    precise vec3 given = (after - led) - before;
+    return given;
+}
+
+/// Returns the moment of what is given to a particle's motion about a point, m^2.
+SHARED vec3 moment_about(vec3 start, vec3 displacement, vec3 about, vec3 given) {
+    precise vec3 arm = (start - about) + displacement;
+    return ordered_cross(arm, given);
+}
+
+/// Returns what contact between cloths gives to a particle's motion in a substep, m.
+SHARED vec3 given_by_contact(vec3 after, vec3 before) {
+    precise vec3 given = after - before;
+    return given;
+}
+
+SHARED vec3 impulse_of_motion(vec3 given, float mass) {
+    precise vec3 impulse = given * mass;
+    return impulse;
+}
+
+#endif
