@@ -1,5 +1,5 @@
-// Impulses are summed as integers, each particle's part rounded by itself, so that the order in which a device adds them
-// changes no bit.
+// Impulses are summed as integers, each particle's part rounded by itself, so that the order in which a device adds
+// them changes no bit.
 #ifndef DRAPE_IMPULSES_H
 #define DRAPE_IMPULSES_H
 

@@ -33,7 +33,7 @@ struct MomentumPush {
     float sign;         // -1 as a frame begins, 1 as it ends
     float compression;  // share of a spring's stiffness where it is pushed together
     vec4 rest_length;   // m; 0: no springs
-    vec4 pull;          // impulse, in masses of an inner particle times m, that a metre of tension gives in half a frame
+    vec4 pull;  // impulse, in masses of an inner particle times m, that a metre of tension gives in half a frame
 };
 
 #ifdef __cplusplus

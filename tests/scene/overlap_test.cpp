@@ -16,8 +16,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A sheet of 5 x 5 particles, 0.25 m apart, lies about the y axis, 0.1 m above the origin. It is so thick that edges of
-/// boxes take its spacing.
+/// A sheet of 5 x 5 particles, 0.25 m apart, lies about the y axis, 0.1 m above the origin. It is so thick that edges
+/// of boxes take its spacing.
 SceneResult over(const std::string& colliders, const std::vector<std::string>& overrides = {}) {
     return read_scene_text(fmt::format(R"({{"name": "over",
 "cloths": [{{"name": "sheet", "grid": [5, 5], "size": [1, 1], "thickness": 0.05,

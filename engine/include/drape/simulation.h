@@ -171,8 +171,8 @@ class Simulation {
     bool can_save() const;
     /// Returns what a simulation of the same scene, options and device needs to go on from here to the same bits.
     SimulationState save() const;
-    /// Takes over what another simulation saved. Throws Error where it is damaged, and nothing has changed; and where it
-    /// was not of such a scene, after which this simulation is over.
+    /// Takes over what another simulation saved. Throws Error where it is damaged, and nothing has changed; and where
+    /// it was not of such a scene, after which this simulation is over.
     void restore(const SimulationState& state);
 
     /// Returns the scene as it runs, with the method and substeps that it left to choose.
