@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ranges>
 
 #include "base/vectors.h"
 #include "cloth/directions.h"
@@ -141,7 +140,9 @@ struct Account {
     /// without pins air, and what was felt of colliders and other cloths; where nothing else acts, damping.
     bool may_take(std::size_t k) const {
         const auto any = [&](const auto& is) {
-            return std::ranges::any_of(std::views::iota(std::size_t{0}, sources.size()), is);
+            for (std::size_t of = 0; of < sources.size(); ++of)
+                if (is(of)) return true;
+            return false;
         };
         const auto is_held = [&](std::size_t of) { return holds(sources[of]); };
         const auto acts = [&](std::size_t of) {

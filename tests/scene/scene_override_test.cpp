@@ -45,7 +45,7 @@ TEST(SceneOverride, LaterOnesWinAndReachIntoEarlierOnes) {
 }
 
 TEST(SceneOverride, PlainWordsAreStrings) {
-    EXPECT_TRUE(scene_with({"/cloths/0/stiffness=rigid"}).cloths[0].stiffness.rigid);
+    EXPECT_TRUE(scene_with({"/forces=false", "/cloths/0/stiffness=rigid"}).cloths.at(0).stiffness.rigid);
     EXPECT_EQ(scene_with({"/cloths/0/name=flag-2"}).cloths[0].name, "flag-2");
     EXPECT_EQ(scene_with({"/name="}).name, "");
     EXPECT_EQ(scene_with({"/name=1,2"}).name, "1,2");
