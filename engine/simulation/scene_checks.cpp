@@ -70,7 +70,8 @@ bool can_change(const Cloth& cloth) {
 
 bool can_be(const Placement& placement) {
     return is_finite(placement.origin) && is_finite(placement.u) && is_finite(placement.v) &&
-           std::ranges::all_of(placement.scale, is_positive) && is_not_negative(placement.jitter);
+           std::ranges::all_of(placement.scale, [](double x) { return std::isfinite(x); }) &&
+           is_not_negative(placement.jitter);
 }
 
 /// What is expected of a cloth's member, where it is not so, and the end of the member's pointer.

@@ -16,6 +16,7 @@
 #include "program.h"
 #include "run/checkpoints.h"
 #include "scenes.h"
+#include "simulation/state_checksum.h"
 
 namespace drape {
 namespace {
@@ -355,6 +356,7 @@ TEST_F(DamagedCheckpoint, NumbersThatNoRunComesToAreRefusedThoughTheSumFits) {
     const auto in_loop = [](std::size_t place, std::uint32_t number) {  // engine/docs/checkpoint.md
         return [=](RunCheckpoint& checkpoint) {
             std::memcpy(checkpoint.state.at("loop").data() + place, &number, sizeof number);
+            seal(checkpoint.state);
         };
     };
     with(in_loop(4, 0), "the saved state is not of this scene");
