@@ -146,14 +146,18 @@ struct Given {
     vec3 motion;
 } givers[most_givers];
 
+bool take_as(int k, int number, vec3 given) {
+    bool here = givers[k].number == number || givers[k].number < 0 || k == most_givers - 1;
+    if (here) givers[k].number = givers[k].number < 0 ? number : givers[k].number;
+    if (here) givers[k].motion = moved_position(givers[k].motion, given);
+    return here;
+}
+
+// A loop that is unrolled would lose that its sums are not to be contracted.
 void take(int number, vec3 given) {
-    bool taken = false;
-    [[unroll]] for (int k = 0; k < most_givers; ++k) {
-        bool here = !taken && (givers[k].number == number || givers[k].number < 0 || k == most_givers - 1);
-        if (here) givers[k].number = givers[k].number < 0 ? number : givers[k].number;
-        if (here) givers[k].motion = moved_position(givers[k].motion, given);
-        taken = taken || here;
-    }
+    if (take_as(0, number, given)) return;
+    if (take_as(1, number, given)) return;
+    take_as(most_givers - 1, number, given);
 }
 
 void take_from_nobody() {

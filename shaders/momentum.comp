@@ -78,8 +78,9 @@ void add(ivec2 texel) {
     float mass = border_mass_share(texel, push.grid);
     if (masked) mass = LOAD(mass_share, texel).x;
     vec3 own = momentum_of(LOAD(displacement, texel).xyz, LOAD(end_excess, texel).xyz, mass);
-    momentum = with_impulse(momentum, own, push.sign * units);
-    moment = with_impulse(moment, moment_of_mass(place.xyz, place.w == 0.0f ? 0.0f : mass), push.sign * travel_units);
+    precise float signed_units = push.sign * units, signed_travel = push.sign * travel_units;
+    momentum = with_impulse(momentum, own, signed_units);
+    moment = with_impulse(moment, moment_of_mass(place.xyz, place.w == 0.0f ? 0.0f : mass), signed_travel);
     if (splits)
         if (place.w == 0.0f) hold(texel);
 }
