@@ -22,6 +22,7 @@ constexpr std::string_view table =
     "planes": [{"normal": [0, 1, 0], "offset": 0, "friction": 0.8}],
     "boxes": [{"center": [0, 0.45, 0], "half_extents": [0.5, 0.45, 0.5], "color": [0.5, 0.35, 0.2]}]  // half the edges
   },
+  "solver": {"tolerance_motion": 0.1},            // m/s of error that cloth that crumples may have; asking for less costs
   "camera": {"position": [1.8, 1.9, 3.1], "target": [0, 0.5, 0], "fov": 28}
 }
 )json";

@@ -16,8 +16,7 @@ bool MotionWatch::Parting::stands_on_a_point() const {
 
 void MotionWatch::look(std::uint32_t frame, const FrameEffort& effort) {
     if (effort.sensitive && !parting_) parting_ = {frame, effort.parted, effort.position_error};
-    constexpr double shows = 1.05;  // the two digits that are said would be those of the limit itself
-    if (const double times = effort.motion_error / effort.motion_allowed; times >= shows) {
+    if (const double times = effort.motion_error / effort.motion_allowed; times > 1) {
         ++hasty_.frames;
         if (times > hasty_.times) hasty_.worst = frame, hasty_.times = times;
     }

@@ -95,7 +95,7 @@ TEST(Crossings, OfAClothThatWouldStartThroughItselfAreUntied) {
 }
 
 const std::string cut_across_a_box = R"({"name": "cut", "time": {"frames": 13},
-"cloths": [{"name": "sheet", "grid": [9, 9], "self_collision": true,
+"cloths": [{"name": "sheet", "grid": [9, 9], "self_collision": true, "thickness": 0.025,
             "placement": {"origin": [-0.5, 0.5, -0.5], "v": [0, 0, 1]}}],
 "colliders": {"boxes": [{"half_extents": [0.3, 0.3, 0.3]}]},
 "cutters": [{"triangle": [[0.06, -9, -9], [0.03, -9, 9], [0.05, 9, 0]], "active": [0.075, 0.075]}],
@@ -122,7 +122,7 @@ TEST(Crossings, OfTrianglesThatCuttersSplitAreNotDenied) {
     }
     EXPECT_THAT(outcome.err,
                 AllOf(HasSubstr("note: " + split + " meet no cloth and no edge of a collider; a finer grid"),
-                      Not(HasSubstr("warning: " + split))));
+                      Not(HasSubstr("warning"))));
     EXPECT_EQ(drape({"report", folder.out()}).code, 0);
     EXPECT_THAT(read_text(folder / "out/report.html"),
                 HasSubstr("Not covered: " + count.asString() + " triangles of cloth 'sheet', from frame 6 on."));
