@@ -18,7 +18,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
       grid(cloth),
       stiffens(!cloth.stiffness_keys.empty()),
       start_stiffness(static_cast<float>(stiffness_factor(scene, cloth, 0))),
-      starts_masked(!grid.whole() || stiffens || keeps_masks || cloth.rest == Rest::start),
+      starts_masked(!grid.whole() || stiffens || keeps_masks || cloth.rest == Rest::start || !cloth.panel.empty()),
       placement(cloth.placement),
       is_given(!cloth.start.empty()),
       start_strain(drape::start_strain(cloth)),
@@ -37,10 +37,12 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
     place(cloth);
-    if (cloth.rest == Rest::start)
+    if (cloth.rest == Rest::start || !cloth.panel.empty())
         for (const std::array<double, 4>& ratio : rest_ratios(cloth))
             rest_scales.push_back({static_cast<float>(ratio[0]), static_cast<float>(ratio[1]),
                                    static_cast<float>(ratio[2]), static_cast<float>(ratio[3])});
+    for (const std::array<double, 2>& at : cloth.panel)
+        panel.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), 0, 0});
     hold_pins(cloth.pins);
     has_release = has_release || (actions.holds && has_motion);
     add_hands(actions.hands);
@@ -76,7 +78,7 @@ float ClothGeometry::reach() const {
 }
 
 double ClothGeometry::start_bending() const {
-    if (bend == 0 || rests_bent() || !is_given) return 0;
+    if (bend == 0 || !is_given || (rests_bent() && panel.empty())) return 0;
     const auto at = [this](std::uint32_t column, std::uint32_t row) {
         const glsl::vec4& texel = position[grid.particle(column, row)];
         return Vec3{double{texel.x}, double{texel.y}, double{texel.z}};

@@ -79,6 +79,7 @@ struct ClothGeometry {
     /// For each particle, the rest lengths of the springs that it owns, divided by those of flat cloth, by direction;
     /// empty: 1.
     std::vector<glsl::vec4> rest_scales;
+    std::vector<glsl::vec4> panel;  ///< m: where particles lie on the flat cloth of an outline; empty: it has none
     std::vector<glsl::ParticleTethers> tethers;  ///< empty unless the scene has tethers and the cloth has pins
     /// The load at which the springs along row and column tear (cloth/tear.h); empty: they never tear.
     std::vector<glsl::vec4> tear_limits;
@@ -96,6 +97,8 @@ struct ClothGeometry {
     float rest_length(float flat, std::size_t particle, std::size_t direction) const;
     /// Returns whether bending, too, is at rest in the shape that the cloth starts in.
     bool rests_bent() const { return bend > 0 && !rest_scales.empty(); }
+    /// Returns where particles are in the shape in which bending is at rest, m.
+    const std::vector<glsl::vec4>& rest_shape() const { return panel.empty() ? position : panel; }
     /// Returns the energy, J, that bending stores in the shape in which the cloth starts, as if no cell were missing.
     double start_bending() const;
     /// Returns the length, m, of the cloth's diagonal at rest, or more.

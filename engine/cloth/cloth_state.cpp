@@ -140,7 +140,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::spring_share, "spring shares", image, vector, constant, masked, spring_list,
          [](Context c) { return bytes_of_list(spring_texels(c.topology)); }, stiffens},
         {Field::rest_shape, "rest shape", image, vector, constant, rests_bent, particles,
-         [](Context c) { return bytes_of_list(c.cloth.position); }},
+         [](Context c) { return bytes_of_list(c.cloth.rest_shape()); }},
         {Field::bend_targets, "bend targets", image, vector, frame, rests_bent, target_list},
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "cloth/directions.h"
+#include "world/panel.h"
 
 namespace drape {
 
@@ -19,6 +20,15 @@ Grid::Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> 
 Grid::Grid(const Cloth& cloth) : Grid(cloth.grid[0], cloth.grid[1], cloth.holes) {
     stiffness_ = cloth.cell_stiffness;
     density_ = cloth.cell_density;
+    if (!cloth.panel.empty()) {
+        const std::vector<double> areas = cell_areas(cloth);
+        for (std::vector<float>* factors : {&stiffness_, &density_}) {
+            factors->resize(areas.size(), 1);
+            for (std::size_t cell = 0; cell < areas.size(); ++cell)
+                (*factors)[cell] = static_cast<float>(double{(*factors)[cell]} * areas[cell]);
+        }
+        shape_ = shape_factors(cloth);
+    }
     whole_ = whole_ && stiffness_.empty() && density_.empty();
 }
 
@@ -57,9 +67,12 @@ float Grid::cell_stiffness(int column, int row) const {
 
 float Grid::spring_share(int column, int row, std::size_t direction) const {
     const glsl::ivec2 offset = spring_directions[direction].offset;
-    if (offset.y == 0) return 0.5f * (cell_stiffness(column, row - 1) + cell_stiffness(column, row));
-    if (offset.x == 0) return 0.5f * (cell_stiffness(column - 1, row) + cell_stiffness(column, row));
-    return cell_stiffness(offset.x < 0 ? column - 1 : column, row);
+    const float cells = offset.y == 0   ? 0.5f * (cell_stiffness(column, row - 1) + cell_stiffness(column, row))
+                        : offset.x == 0 ? 0.5f * (cell_stiffness(column - 1, row) + cell_stiffness(column, row))
+                                        : cell_stiffness(offset.x < 0 ? column - 1 : column, row);
+    if (shape_.empty()) return cells;
+    const std::uint32_t owner = particle(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    return static_cast<float>(double{cells} * shape_[owner][direction]);
 }
 
 glsl::vec4 Grid::spring_shares(std::uint32_t column, std::uint32_t row) const {

@@ -3,6 +3,7 @@
 // diagonals).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,7 +59,8 @@ class Grid {
     float spring_share(int column, int row, std::size_t direction) const;
     std::uint32_t columns_, rows_;
     std::vector<std::uint32_t> cells_;
-    std::vector<float> stiffness_, density_;  ///< factors by cell; empty: 1
+    std::vector<float> stiffness_, density_;    ///< factors by cell; empty: 1
+    std::vector<std::array<double, 4>> shape_;  ///< factors by particle and direction, of an outline; empty: 1
     bool whole_ = true;
 };
 

@@ -83,6 +83,8 @@ Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& fi
             return differ(pointer, there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty()));
         case ClothKey::stiffness:
             return differ(pointer + "/rigid", text(first.stiffness.rigid), text(other.stiffness.rigid));
+        case ClothKey::panel:
+            return differ(pointer, there(!first.panel.empty()), there(!other.panel.empty()));
         case ClothKey::rest:
             return differ(pointer, spelling(rest_spellings, first.rest), spelling(rest_spellings, other.rest));
         case ClothKey::contact:

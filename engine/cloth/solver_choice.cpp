@@ -53,6 +53,8 @@ void leave_out_particles(ClothKey key, Cloth& cloth) {
         case ClothKey::rest:  // rest at the start shape, whose places were removed
             cloth.rest = Rest::flat;
             return;
+        case ClothKey::panel:
+            return cloth.panel.clear();
         case ClothKey::velocities:
             return cloth.velocities.clear();
         case ClothKey::cell_stiffness:

@@ -24,6 +24,8 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
             return one.holes == other.holes;
         case ClothKey::rest:
             return one.rest == other.rest;
+        case ClothKey::panel:
+            return one.panel == other.panel;
         case ClothKey::cell_stiffness:
             return one.cell_stiffness == other.cell_stiffness;
         case ClothKey::cell_density:
@@ -72,6 +74,7 @@ bool is_in_state(ClothKey key) {
         case ClothKey::grid:
         case ClothKey::size:
         case ClothKey::rest:
+        case ClothKey::panel:
         case ClothKey::areal_density:
         case ClothKey::stiffness:
         case ClothKey::stiffness_keys:

@@ -42,6 +42,10 @@ const char* unsupported(ClothKey key, const Cloth& cloth) {
             return cloth.rest == Rest::start && cloth.stiffness.bend.largest() > 0
                        ? "the double-precision reference knows no bending that is at rest when bent"
                        : nullptr;
+        case ClothKey::panel:
+            return !cloth.panel.empty() && cloth.stiffness.bend.largest() > 0
+                       ? "the double-precision reference knows no bending of an outline's uneven rim"
+                       : nullptr;
         case ClothKey::name:
         case ClothKey::grid:
         case ClothKey::size:

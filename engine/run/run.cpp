@@ -25,6 +25,8 @@ std::string given_hash(ClothKey key, const Cloth& cloth) {
     switch (key) {
         case ClothKey::start:
             return hash_of(cloth.start);
+        case ClothKey::panel:
+            return cloth.panel.empty() ? "" : hash_of(cloth.panel);
         case ClothKey::velocities:
             return cloth.velocities.empty() ? "" : hash_of(cloth.velocities);
         case ClothKey::holes:

@@ -41,7 +41,9 @@ bool check_box(const SceneNode& node, const IndexBox& box, const Particle& grid)
            node.fail_expected("the first particle of a box not beyond its last");
 }
 
-bool find_particles(const SceneNode& node, const Particle& grid, Pin& pin) {
+bool find_particles(const SceneNode& node, const Particle& grid, const Cloth& cloth, const std::array<double, 2>& low,
+                    Pin& pin) {
+    if (const SceneNode point = node.member("point")) return find_point(point, cloth, low, pin.particles);
     if (const SceneNode at = node.member("at")) return check_particle(at, pin.particles.first, grid);
     if (const SceneNode box = node.member("box")) return check_box(box, pin.particles, grid);
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -214,6 +216,15 @@ void check_overlaps(const SceneNode& cloths, const SceneDescription& scene) {
     }
 }
 
+/// Contact between cloths takes the cells of a cloth for alike, which those on an outline's rim are not.
+void check_meeting_outlines(const SceneNode& cloths, const SceneDescription& scene) {
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+        if (!scene.cloths[i].panel.empty())
+            cloths.element(i).member("outline").fail(
+                "expected a rectangle where cloths meet (self_collision): contact between cloths does not follow "
+                "outlines yet");
+}
+
 constexpr std::size_t most_force_pins = 1000;
 
 /// What holds a cloth is told apart among its pins by what its springs bear, which rigid ones do not say.
@@ -282,19 +293,22 @@ bool check_placement(const Members& members, Placement& placement) {
 
 bool check_pin(const Members& members, Pin&) {
     int count = 0;
-    for (const char* key : {"edge", "corner", "at", "box"}) count += members[key] ? 1 : 0;
+    for (const char* key : {"edge", "corner", "at", "box", "point"}) count += members[key] ? 1 : 0;
     if (count == 1) return true;
     return members.object().fail(
-        fmt::format("expected exactly one of edge, corner, at and box, got {} of them", count));
+        fmt::format("expected exactly one of edge, corner, at, box and point, got {} of them", count));
 }
 
 bool check_cloth(const Members& members, Cloth& cloth) {
     // Without a valid grid the indices are held against the largest one, so that a mistake in the grid is not
     // reported once more for every pin.
+    const std::size_t written_holes = cloth.holes.size();
+    std::array<double, 2> low{};
+    if (!take_outline(members, cloth, low)) return false;
     const Particle grid = members.fit({"grid"}) ? cloth.grid : Particle{grid_axis_limit, grid_axis_limit};
     bool fits = true;
     note_fabric(members.object());
-    for (std::size_t i = 0; i < cloth.holes.size(); ++i)
+    for (std::size_t i = 0; i < written_holes; ++i)
         fits = check_box(members["holes"].element(i), cloth.holes[i], grid) && fits;
     if (members.fit({"stiffness", "tear"})) fits = check_torn_cloth(members, cloth) && fits;
     if (members.fit({"stiffness", "stiffness_keys", "tear"})) fits = check_stiffness_keys(members, cloth) && fits;
@@ -305,7 +319,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
         fits = members[members["holes"] ? "holes" : "maps"].fail(
             "expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-        fits = find_particles(members["pins"].element(i), grid, cloth.pins[i]) && fits;
+        fits = find_particles(members["pins"].element(i), grid, cloth, low, cloth.pins[i]) && fits;
     if (members.fit({"grid", "size", "holes", "maps", "start"})) fits = take_start(members, cloth) && fits;
     if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
@@ -332,7 +346,10 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     }
     if (members["gravity"] && members["gravity_keys"])
         members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
-    if (!cloths_meet(scene)) warn_of_touching(node, cloths);
+    if (cloths_meet(scene))
+        check_meeting_outlines(node, scene);
+    else
+        warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);

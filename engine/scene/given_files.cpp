@@ -62,11 +62,49 @@ std::vector<double> particle_values(const SceneNode& node, const std::string& na
     return values;
 }
 
-/// Adds the cells as boxes: runs of a row, each as far down as the same cells are missing below.
-void add_holes(const std::vector<double>& values, Cloth& cloth) {
+/// Returns the factors of cells or particles over `whole`.
+std::vector<float> factors(const std::vector<double>& values, const std::array<double, 2>& range, double whole) {
+    std::vector<float> factors;
+    for (const double value : values)
+        factors.push_back(static_cast<float>((range[0] + (range[1] - range[0]) * value) / whole));
+    return factors;
+}
+
+/// An outline may have given the cells factors already.
+void scale_by(std::vector<float> factors, std::vector<float>& all) {
+    for (std::size_t cell = 0; cell < all.size(); ++cell) factors[cell] *= all[cell];
+    all = std::move(factors);
+}
+
+/// The stiffness and the density that the cloth has from then on are the largest and the least of the map.
+void take_factors(const MapFiles& files, const std::vector<double>& stiffness, const std::vector<double>& density,
+                  Cloth& cloth) {
+    if (!stiffness.empty()) {
+        const double largest = std::ranges::max(files.stiffness_range);
+        scale_by(factors(stiffness, files.stiffness_range, largest), cloth.cell_stiffness);
+        cloth.stiffness.stretch *= largest;
+        cloth.stiffness.shear *= largest;
+        cloth.stiffness.bend *= largest;
+    }
+    if (density.empty()) return;
+    const double least = std::ranges::min(files.density_range);
+    scale_by(factors(density, files.density_range, least), cloth.cell_density);
+    cloth.areal_density *= least;
+}
+
+/// The thicknesses that the cloth has from then on, that between layers too, are the largest of the map.
+void take_thickness(const MapFiles& files, const std::vector<double>& values, Cloth& cloth) {
+    if (values.empty()) return;
+    const double largest = std::ranges::max(files.thickness_range);
+    cloth.particle_thickness = factors(values, files.thickness_range, largest);
+    cloth.thickness *= largest;
+    if (cloth.self_collision && cloth.self_collision->thickness) *cloth.self_collision->thickness *= largest;
+}
+
+}  // namespace
+
+void add_holes(std::vector<bool> missing, Cloth& cloth) {
     const std::uint32_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
-    std::vector<bool> missing(values.size());
-    for (std::size_t cell = 0; cell < values.size(); ++cell) missing[cell] = values[cell] < 0.5;
     for (std::uint32_t row = 0; row < rows; ++row)
         for (std::uint32_t column = 0; column < columns; ++column) {
             std::uint32_t right = column, below = row;
@@ -83,41 +121,6 @@ void add_holes(const std::vector<double>& values, Cloth& cloth) {
             column = right - 1;
         }
 }
-
-/// Returns the factors of cells or particles over `whole`.
-std::vector<float> factors(const std::vector<double>& values, const std::array<double, 2>& range, double whole) {
-    std::vector<float> factors;
-    for (const double value : values)
-        factors.push_back(static_cast<float>((range[0] + (range[1] - range[0]) * value) / whole));
-    return factors;
-}
-
-/// The stiffness and the density that the cloth has from then on are the largest and the least of the map.
-void take_factors(const MapFiles& files, const std::vector<double>& stiffness, const std::vector<double>& density,
-                  Cloth& cloth) {
-    if (!stiffness.empty()) {
-        const double largest = std::ranges::max(files.stiffness_range);
-        cloth.cell_stiffness = factors(stiffness, files.stiffness_range, largest);
-        cloth.stiffness.stretch *= largest;
-        cloth.stiffness.shear *= largest;
-        cloth.stiffness.bend *= largest;
-    }
-    if (density.empty()) return;
-    const double least = std::ranges::min(files.density_range);
-    cloth.cell_density = factors(density, files.density_range, least);
-    cloth.areal_density *= least;
-}
-
-/// The thicknesses that the cloth has from then on, that between layers too, are the largest of the map.
-void take_thickness(const MapFiles& files, const std::vector<double>& values, Cloth& cloth) {
-    if (values.empty()) return;
-    const double largest = std::ranges::max(files.thickness_range);
-    cloth.particle_thickness = factors(values, files.thickness_range, largest);
-    cloth.thickness *= largest;
-    if (cloth.self_collision && cloth.self_collision->thickness) *cloth.self_collision->thickness *= largest;
-}
-
-}  // namespace
 
 bool take_start(const Members& members, Cloth& cloth) {
     const SceneNode node = members["start"], rest = members["rest"];
@@ -196,7 +199,11 @@ bool take_maps(const Members& members, Cloth& cloth) {
     (void)node.member("tear_range").read(std::span<double>(files.tear_range), "", map_factor);
     (void)node.member("friction_range").read(std::span<double>(files.friction_range), "", map_friction_factor);
     (void)node.member("thickness_range").read(std::span<double>(files.thickness_range), "", map_factor);
-    if (!holes.empty()) add_holes(holes, cloth);
+    if (!holes.empty()) {
+        std::vector<bool> missing;
+        for (const double value : holes) missing.push_back(value < 0.5);
+        add_holes(std::move(missing), cloth);
+    }
     if (!tear.empty()) cloth.cell_tear = factors(tear, files.tear_range, 1);
     if (!friction.empty()) cloth.particle_friction = factors(friction, files.friction_range, 1);
     take_factors(files, stiffness, density, cloth);

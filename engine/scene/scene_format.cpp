@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/collider_rows.h"
+#include "scene/outline_rows.h"
 #include "scene/scene_rules.h"
 #include "world/frame_limit.h"
 
@@ -155,7 +156,8 @@ const Object<Stiffness> stiffness{
 
 const Object<Pin> pin{
     "pin",
-    "Holds particles where they start or moves them along a path. Exactly one of edge, corner, at and box says which.",
+    "Holds particles where they start or moves them along a path. Exactly one of edge, corner, at, box and point says "
+    "which.",
     {
         {"edge", &Pin::particles, without_default(choice<IndexBox>(edge_spellings)),
          "All particles of a border: left is column 0, top is row 0."},
@@ -163,6 +165,8 @@ const Object<Pin> pin{
          "One corner particle: left is column 0, top is row 0."},
         {"at", &Pin::particles, one_particle, "One particle."},
         {"box", &Pin::particles, particles, "All particles of a box."},
+        {"point", two_numbers(any_number).text, read_point,
+         "The particle that is nearest to a point [x, y] of the cloth's outline, metres."},
         {"release", &Pin::release, optional(number(not_negative)),
          "Seconds. From then on the particles are free and keep their velocity. Absent: never."},
         {"path", &Pin::path, path, "Rigid motion of the particles relative to where they start. Absent: at rest."},
@@ -171,7 +175,7 @@ const Object<Pin> pin{
          "particles where they start, without those that a later pin holds."},
     },
     check_pin,
-    R"("oneOf": [{"required": ["edge"]}, {"required": ["corner"]}, {"required": ["at"]}, {"required": ["box"]}])"};
+    R"("oneOf": [{"required": ["edge"]}, {"required": ["corner"]}, {"required": ["at"]}, {"required": ["box"]}, {"required": ["point"]}])"};
 
 const Object<Appearance> appearance{"appearance",
                                     "For pictures only.",
@@ -260,6 +264,8 @@ const Object<Cloth> cloth{
         {"grid", &Cloth::grid, two_integers(2, grid_axis_limit), "Particles: columns, rows."},
         {"size", &Cloth::size, two_numbers(positive),
          "Metres along the columns' direction u and the rows' direction v."},
+        {"outline", Value<OutlineText>(outline).text, read_outline,
+         "Instead of grid and size: the cloth is what a path goes around. Absent: a rectangle."},
         {"placement", &Cloth::placement, turned(placement), "Where the flat cloth starts."},
         {"start", text().text, read_text<Cloth>,
          "File that says where every particle starts, in metres, instead of placement: .npy ([rows, columns, 3] or "

@@ -46,6 +46,18 @@ struct MapFiles {
     std::array<double, 2> stiffness_range{0.1, 1}, density_range{0.1, 1}, tear_range{0.1, 1}, friction_range{0.1, 1},
         thickness_range{0.1, 1};
 };
+/// A cloth's outline as it is written.
+struct OutlineText {
+    std::string path;                  ///< as SVG has it
+    double scale = 1, spacing = 0.01;  ///< m: of the path's unit; of the cells
+};
+/// Gives a cloth the grid, the holes and the places that its outline asks for, and tells the corner of the outline's
+/// box in its coordinates, m.
+bool take_outline(const Members& members, Cloth& cloth, std::array<double, 2>& low);
+/// Finds the particle of a cloth with an outline that is nearest to a point in its coordinates, m.
+bool find_point(const SceneNode& node, const Cloth& cloth, const std::array<double, 2>& low, IndexBox& particles);
+/// Adds missing cells as boxes: runs of a row, each as far down as the same cells are missing below.
+void add_holes(std::vector<bool> missing, Cloth& cloth);
 /// Reads the start of a cloth whose grid and size are known, from the file that it names.
 bool take_start(const Members& members, Cloth& cloth);
 /// Reads likewise the velocities with which it starts.

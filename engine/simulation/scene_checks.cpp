@@ -9,6 +9,7 @@
 #include "drape/scene_reader.h"
 #include "world/cloth_keys.h"
 #include "world/overlap.h"
+#include "world/panel.h"
 #include "world/start.h"
 #include "world/start_crossings.h"
 
@@ -111,6 +112,18 @@ Fault fault_of_map(const Cloth& cloth, ClothKey key) {
     return fault_unless(has_factors(count, cloth.*map.factors, map.least, map.most), map.expected);
 }
 
+/// Explicit steps are chosen for the stiffness and the density that the cloth says, so no cell's shape may exceed them.
+Fault fault_of_panel(const Cloth& cloth) {
+    if (cloth.panel.empty()) return {};
+    if (std::string fault = panel_fault(cloth); !fault.empty()) return {std::move(fault)};
+    constexpr double rounding = 1e-5;
+    const double stiffness = cloth.cell_stiffness.empty() ? 1 : std::ranges::max(cloth.cell_stiffness),
+                 density = cloth.cell_density.empty() ? 1 : std::ranges::min(cloth.cell_density);
+    const bool fits = (cloth.stiffness.rigid || stiffness * stiffest_shape(cloth) <= 1 + rounding) &&
+                      density * std::ranges::min(cell_areas(cloth)) >= 1 - rounding && cloth.rest == Rest::flat;
+    return fault_unless(fits, "cells no stiffer and no lighter than the cloth says, and a cloth that rests flat");
+}
+
 /// Judges one member of a cloth with a right grid. A new member of Cloth does not compile until it is judged here.
 Fault fault_of(const Cloth& cloth, ClothKey key) {
     switch (key) {
@@ -122,6 +135,8 @@ Fault fault_of(const Cloth& cloth, ClothKey key) {
             return fault_unless(can_be(cloth.placement), "finite lengths");
         case ClothKey::start:
             return {cloth.start.empty() ? "" : start_fault(cloth)};
+        case ClothKey::panel:
+            return fault_of_panel(cloth);
         case ClothKey::areal_density:
             return fault_unless(is_positive(cloth.areal_density), "a mass above 0");
         case ClothKey::stiffness:
@@ -204,6 +219,9 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),
                    ("a start outside all colliders: " + overlap_text(scene, overlap)).c_str());
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+        expect(scene.cloths[i].panel.empty() || !cloths_meet(scene), fmt::format("/cloths/{}/outline", i),
+               "a rectangle where cloths meet");
     if (result.errors.empty() && cloths_meet(scene))
         for (const StartCrossing& crossing : start_crossings(scene))
             expect(!is_refused(scene, crossing), fmt::format("/cloths/{}", crossing.second),

@@ -21,6 +21,7 @@ enum class ClothKey {
     placement,
     start,
     rest,
+    panel,
     areal_density,
     stiffness,
     stiffness_keys,
@@ -44,18 +45,19 @@ enum class ClothKey {
 
 /// The places of the members in a scene file, relative to a cloth.
 inline constexpr std::string_view cloth_key_pointers[] = {
-    "/name",          "/grid",           "/size",    "/placement",      "/start",        "/rest",    "/areal_density",
-    "/stiffness",     "/stiffness_keys", "/damping", "/friction",       "/thickness",    "/contact", "/self_collision",
-    "/velocity",      "/velocities",     "/holes",   "/maps/stiffness", "/maps/density", "/tear",    "/maps/tear",
-    "/maps/friction", "/maps/thickness", "/pins",    "/appearance"};
+    "/name",           "/grid",          "/size",           "/placement",      "/start",         "/rest",
+    "/outline",        "/areal_density", "/stiffness",      "/stiffness_keys", "/damping",       "/friction",
+    "/thickness",      "/contact",       "/self_collision", "/velocity",       "/velocities",    "/holes",
+    "/maps/stiffness", "/maps/density",  "/tear",           "/maps/tear",      "/maps/friction", "/maps/thickness",
+    "/pins",           "/appearance"};
 constexpr std::string_view pointer_of(ClothKey key) { return cloth_key_pointers[static_cast<std::size_t>(key)]; }
 
 /// Returns references to all members, in their order. The binding names each member, so a new one does not compile.
 inline auto members_of(const Cloth& cloth) {
-    const auto& [name, grid, size, placement, start, rest, areal_density, stiffness, stiffness_keys, damping, friction,
-                 thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness, cell_density, tear,
-                 cell_tear, particle_friction, particle_thickness, pins, appearance] = cloth;
-    return std::tie(name, grid, size, placement, start, rest, areal_density, stiffness, stiffness_keys, damping,
+    const auto& [name, grid, size, placement, start, rest, panel, areal_density, stiffness, stiffness_keys, damping,
+                 friction, thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness,
+                 cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, appearance] = cloth;
+    return std::tie(name, grid, size, placement, start, rest, panel, areal_density, stiffness, stiffness_keys, damping,
                     friction, thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness,
                     cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, appearance);
 }

@@ -76,9 +76,9 @@ double covering_radius(const Cloth& cloth) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
         // A given shape may be as uneven as moving cloth, unless it is the rest shape, which may then stretch in
         // addition.
-        const double stretch = cloth.rest == Rest::start ? 1 : 1 + contact_stretch;
-        const double scale =
-            cloth.start.empty() ? cloth.placement.scale[axis] : start_ratios(cloth, axis).largest / stretch;
+        const double stretch = cloth.rest == Rest::start || cloth.start.empty() ? 1 : 1 + contact_stretch;
+        const double scale = cloth.start.empty() && cloth.panel.empty() ? cloth.placement.scale[axis]
+                                                                        : start_ratios(cloth, axis).largest / stretch;
         const double spacing = grid_spacing(cloth)[axis] * std::max(1.0, scale);
         squared += spacing * spacing;
     }

@@ -34,7 +34,17 @@ double resolution(const Cloth& cloth, const Vec3& u, const Vec3& v) {
     return std::max(4 * farthest * std::numeric_limits<float>::epsilon(), 1e-6 * cell);
 }
 
-/// Calls `look` with the three particles of every triangle.
+/// Returns where the particles start without jitter, row by row.
+std::vector<Vec3> start_places(const Cloth& cloth) {
+    if (!cloth.start.empty()) return cloth.start;
+    std::vector<Vec3> places;
+    for (std::uint32_t row = 0; row < cloth.grid[1]; ++row)
+        for (std::uint32_t column = 0; column < cloth.grid[0]; ++column)
+            places.push_back(start_place(cloth, column, row));
+    return places;
+}
+
+/// Calls `look` with the three particles of every triangle of a given shape.
 template <class Look>
 void for_triangles(const Cloth& cloth, const Look& look) {
     const std::vector<bool> missing = missing_cells(cloth);
@@ -66,12 +76,14 @@ Vec3 summed_normal(const Cloth& cloth) {
     return normal;
 }
 
-/// Calls `look` with the ratio of length to rest length of every spring of a given shape along u (axis 0) or v.
+/// Calls `look` with the first particle of every spring along u (axis 0) or v, and the ratio of its length at the start
+/// to that on the full grid at rest.
 template <class Look>
 void for_springs(const Cloth& cloth, std::size_t axis, const Look& look) {
     const std::vector<bool> missing = missing_cells(cloth);
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], step = axis == 0 ? 1 : columns;
     const double rest = grid_spacing(cloth)[axis];
+    const std::vector<Vec3> places = start_places(cloth);
     const auto is_there = [&](std::size_t column, std::size_t row) {
         return column + 1 < columns && row + 1 < rows && !missing[row * (columns - 1) + column];
     };
@@ -81,7 +93,7 @@ void for_springs(const Cloth& cloth, std::size_t axis, const Look& look) {
                 axis == 0 ? row > 0 && is_there(column, row - 1) : column > 0 && is_there(column - 1, row);
             if (!beside && !is_there(column, row)) continue;
             const std::size_t first = row * columns + column;
-            look(length(minus(cloth.start[first + step], cloth.start[first])) / rest);
+            look(first, length(minus(places[first + step], places[first])) / rest);
         }
 }
 
@@ -234,9 +246,11 @@ Vec3 start_place(const Cloth& cloth, std::uint32_t column, std::uint32_t row) {
     if (!cloth.start.empty()) return cloth.start[std::size_t{row} * cloth.grid[0] + column];
     const Placement& placement = cloth.placement;
     const auto [dx, dy] = grid_spacing(cloth);
+    const std::array<double, 2> flat = cloth.panel.empty() ? std::array<double, 2>{column * dx, row * dy}
+                                                           : cloth.panel[std::size_t{row} * cloth.grid[0] + column];
     Vec3 at = placement.origin;
     for (std::size_t k = 0; k < 3; ++k)
-        at[k] += column * dx * placement.scale[0] * placement.u[k] + row * dy * placement.scale[1] * placement.v[k];
+        at[k] += flat[0] * placement.scale[0] * placement.u[k] + flat[1] * placement.scale[1] * placement.v[k];
     return at;
 }
 
@@ -282,8 +296,11 @@ double start_strain(const Cloth& cloth) {
     double strain = 0;
     if (cloth.rest == Rest::start) return strain;
     if (!cloth.start.empty()) {
+        const std::vector<std::array<double, 4>> rest = rest_ratios(cloth);
         for (std::size_t axis = 0; axis < 2; ++axis)
-            for_springs(cloth, axis, [&](double ratio) { strain = std::max(strain, std::abs(ratio - 1)); });
+            for_springs(cloth, axis, [&](std::size_t first, double ratio) {
+                strain = std::max(strain, std::abs(ratio / rest[first][axis] - 1));
+            });
         return strain;
     }
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -297,7 +314,7 @@ double start_strain(const Cloth& cloth) {
 StartRatios start_ratios(const Cloth& cloth, std::size_t axis) {
     StartRatios ratios{0, 0};
     double count = 0;
-    for_springs(cloth, axis, [&](double ratio) {
+    for_springs(cloth, axis, [&](std::size_t, double ratio) {
         ratios = {ratios.mean + ratio, std::max(ratios.largest, ratio)};
         ++count;
     });
@@ -345,10 +362,14 @@ std::string start_fault(const Cloth& cloth) {
 std::vector<std::array<double, 4>> rest_ratios(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0], rows = cloth.grid[1], cells = columns - 1;
     std::vector<std::array<double, 4>> ratios(columns * rows, {1, 1, 1, 1});
-    if (cloth.rest == Rest::flat) return ratios;
+    if (cloth.rest == Rest::flat && cloth.panel.empty()) return ratios;
     const auto [dx, dy] = grid_spacing(cloth);
+    const auto place = [&](std::size_t particle) {
+        return cloth.panel.empty() ? cloth.start[particle]
+                                   : Vec3{cloth.panel[particle][0], cloth.panel[particle][1], 0};
+    };
     const auto set = [&](std::size_t owner, std::size_t other, std::size_t direction, double flat) {
-        ratios[owner][direction] = length(minus(cloth.start[other], cloth.start[owner])) / flat;
+        ratios[owner][direction] = length(minus(place(other), place(owner))) / flat;
     };
     const std::vector<bool> missing = missing_cells(cloth);
     for (std::size_t cell = 0; cell < missing.size(); ++cell) {

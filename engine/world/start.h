@@ -65,15 +65,15 @@ Vec3 start_normal(const Cloth& cloth);
 /// Returns the largest absolute strain with which a spring along u or v starts.
 double start_strain(const Cloth& cloth);
 
-/// The ratios of the spring lengths along u and v in a given shape to their rest lengths.
+/// The ratios of the spring lengths along u and v at the start without jitter to those on the full grid at rest.
 struct StartRatios {
     double mean = 1, largest = 1;
 };
 StartRatios start_ratios(const Cloth& cloth, std::size_t axis);
 
 /// Returns by particle the rest lengths of the springs to its right, below it, and below it on the right and on the
-/// left, divided by those of flat cloth. They are 1 unless the cloth rests as it starts, and where the grid or a hole
-/// has no spring.
+/// left, divided by those of the full grid. They are 1 unless the cloth rests as it starts or has an outline, and where
+/// the grid or a hole has no spring.
 std::vector<std::array<double, 4>> rest_ratios(const Cloth& cloth);
 /// Returns why a given shape cannot be a rest shape, as text to follow "expected". Empty: it can.
 std::string rest_fault(const Cloth& cloth);

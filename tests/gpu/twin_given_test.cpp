@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "drape/scene_reader.h"
 #include "support/meshes.h"
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
@@ -143,6 +144,24 @@ TEST(TwinGivenTest, AllThatDiffersAtOnce) {
         cloth.self_collision.emplace();
         EXPECT_GT(compare(scene).most_pairs, 0u);
     }
+}
+
+/// A disc with a hole, whose rim's cells are uneven: lengths, masses and constants of their own, and bending that is at
+/// rest on the panel, not in the folded start.
+TEST(TwinGivenTest, AnOutline) {
+    const SceneDescription outlined = parse_scene(
+        R"({"cloths": [{"outline": {"path": "M-.5 0A.5.5 0 0 0 .5 0A.5.5 0 0 0-.5 0ZM0-.1h.2v.2h-.2z", "spacing": 0.03},
+            "placement": {"origin": [0, 0.1, 0], "v": [0, 0, 1]}, "stiffness": {"bend": 1e-4},
+            "pins": [{"point": [0.4, 0.3], "release": 0.05}, {"point": [-0.4, 0.3]}]}]})");
+    for (const SolverMethod method : methods)
+        for (const bool folded : {false, true}) {
+            SceneDescription scene = test::everything();
+            scene.solver.method = method;
+            scene.cloths = outlined.cloths;
+            Cloth& cloth = scene.cloths[0];
+            if (folded) fold(cloth);
+            compare(scene, {}, test::gpu().device, {.drawing = true, .statistics = method == SolverMethod::relax});
+        }
 }
 
 TEST(TwinGivenTest, StiffnessAndDensityByCell) {

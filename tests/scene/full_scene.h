@@ -69,4 +69,8 @@ inline constexpr const char* full_scene =
 }
 )json";
 
+// Cloths with outlines do not meet, as those of the full scene do. Here every key of an outline occurs.
+inline constexpr const char* outlined_scene =
+    R"json({"cloths": [{"outline": {"path": "M0 0H8V8H0Z", "scale": 0.5, "spacing": 0.25}, "pins": [{"point": [0, 4]}]}]})json";
+
 }  // namespace drape::testing

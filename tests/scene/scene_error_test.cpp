@@ -358,10 +358,10 @@ INSTANTIATE_TEST_SUITE_P(World, SceneErrors, ::testing::ValuesIn(world_cases), n
 const Malformed pin_cases[] = {
     {"NoSelector",
      cloth("\"pins\": [{}]"),
-     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at and box, got 0 of them"}},
+     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at, box and point, got 0 of them"}},
     {"TwoSelectors",
      cloth("\"pins\": [{\"edge\": \"left\", \"at\": [0, 0]}]"),
-     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at and box, got 2 of them"}},
+     {"2:10: /cloths/0/pins/0: expected exactly one of edge, corner, at, box and point, got 2 of them"}},
     {"EdgeAndCorner",
      cloth("\"pins\": [{\"edge\": \"up\"}, {\"corner\": \"left\"}]"),
      {"2:19: /cloths/0/pins/0/edge: expected \"left\" or \"right\" or \"top\" or \"bottom\", got \"up\"",

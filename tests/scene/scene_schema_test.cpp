@@ -55,7 +55,7 @@ const Json::Value& object_schema(std::string_view name) {
     return name == "scene" ? schema() : schema()["definitions"][std::string(name)];
 }
 
-// Each kind of object has one place in full_scene.
+// Each kind of object has one place in full_scene, an outline in outlined_scene.
 const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"time", ".time"},
                                                      {"wind", ".wind"},
@@ -64,6 +64,7 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"stiffness_key", ".cloths[3].stiffness_keys[1]"},
                                                      {"gust", ".wind.gust"},
                                                      {"cloth", ".cloths[0]"},
+                                                     {"outline", ".cloths[0].outline"},
                                                      {"placement", ".cloths[0].placement"},
                                                      {"self_collision", ".cloths[0].self_collision"},
                                                      {"stiffness", ".cloths[0].stiffness"},
@@ -97,9 +98,9 @@ std::string pointer_of(const std::string& path) {
     return pointer;
 }
 
-// Returns the pointers of the errors of full_scene with one value replaced.
+// Returns the pointers of the errors of an object's scene with one value replaced.
 std::set<std::string> error_pointers(std::string_view object, const std::string& path, const Json::Value& replacement) {
-    Json::Value scene = parsed(testing::full_scene);
+    Json::Value scene = parsed(object == "outline" ? testing::outlined_scene : testing::full_scene);
     Json::Path(places.at(object) + path).make(scene) = replacement;
     std::set<std::string> pointers;
     for (const SceneError& error : read_scene_text(written(scene), "s").errors) pointers.insert(error.pointer);
@@ -276,13 +277,14 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"wind_key", {"t", "velocity"}},
         {"gravity_key", {"t", "gravity"}},
         {"stiffness_key", {"t", "factor"}},
-        {"cloth", {"name", "fabric", "start", "stiffness_keys", "velocities", "tear", "maps"}},
+        {"cloth", {"name", "fabric", "outline", "start", "stiffness_keys", "velocities", "tear", "maps"}},
+        {"outline", {"path"}},
         {"warp_weft", {"warp", "weft"}},
         {"rigidity", {"warp", "weft", "twist"}},
         {"tear", {"strain", "tension"}},
         {"maps", {"holes", "stiffness", "density", "tear", "friction", "thickness"}},
         {"self_collision", {"thickness", "friction"}},
-        {"pin", {"edge", "corner", "at", "box", "release", "path", "pivot"}},
+        {"pin", {"edge", "corner", "at", "box", "point", "release", "path", "pivot"}},
         {"motion_key", {"t"}},
         {"plane", {"path"}},
         {"sphere", {"path"}},

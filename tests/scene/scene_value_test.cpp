@@ -75,9 +75,11 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
 }
 
-TEST(SceneValues, FullSceneHasEveryKeyOfACloth) {
+TEST(SceneValues, FullScenesHaveEveryKeyOfACloth) {
     std::array<bool, cloth_key_count> set{};
-    for (const Cloth& cloth : scene_of(testing::full_scene).cloths) {
+    std::vector<Cloth> cloths = scene_of(testing::full_scene).cloths;
+    cloths.push_back(scene_of(testing::outlined_scene).cloths.at(0));
+    for (const Cloth& cloth : cloths) {
         const auto differs = differences(cloth, Cloth{});
         for (std::size_t k = 0; k < set.size(); ++k) set[k] = set[k] || differs[k];
     }

@@ -108,7 +108,7 @@ class Reduction {
 
     Edge edge(ivec2 from, ivec2 to) const {
         if (!inside(from) || !inside(to)) return {};
-        return {xyz(cloth_.position[at(to)]) - xyz(cloth_.position[at(from)]),
+        return {xyz(cloth_.rest_shape()[at(to)]) - xyz(cloth_.rest_shape()[at(from)]),
                 xyz(state_[Field::position][at(to)]) - xyz(state_[Field::position][at(from)])};
     }
     static Edge sum_of(const Edge& one, const Edge& other, float sign) {

@@ -39,7 +39,7 @@ struct RestShape {
     RestEdge edge(ivec2 from, ivec2 to) const {
         const std::size_t a = at(model.grid, from), b = at(model.grid, to);
         const vec3 from_at = xyz(state[Field::position][a]), to_at = xyz(state[Field::position][b]);
-        RestEdge edge{xyz(model.position[b]) - xyz(model.position[a]), to_at - from_at, to_at - from_at};
+        RestEdge edge{xyz(model.rest_shape()[b]) - xyz(model.rest_shape()[a]), to_at - from_at, to_at - from_at};
         if (push.gathers == 0 || advance)
             edge.now =
                 spring_edge(from_at, to_at, xyz(state[Field::displacement][a]), xyz(state[Field::displacement][b]));

@@ -216,7 +216,10 @@ struct Cloth {
     Placement placement;
     /// m: where every particle starts, row by row. Empty: flat, as placed. Else `placement` has its defaults.
     std::vector<Vec3> start;
-    Rest rest = Rest::flat;      ///< `start` needs that
+    Rest rest = Rest::flat;  ///< `start` needs that
+    /// m: where every particle lies on the flat cloth, row by row, from the corner of its box; the cells' shapes decide
+    /// masses and constants (engine/docs/physics.md 1). Empty: where the grid has it.
+    std::vector<std::array<double, 2>> panel;
     double areal_density = 0.2;  ///< kg/m^2; where cells differ, of one with the factor 1
     Stiffness stiffness;
     /// Factors of all of the stiffness, at most 1, strictly increasing in time; empty: it stays (world/weather.h).
