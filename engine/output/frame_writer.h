@@ -27,6 +27,8 @@ struct WrittenCloth {
     std::array<double, 2> size{1, 1};  ///< metres along columns, rows
     std::vector<bool> held{};          ///< by particle: pinned at the start; empty: none
     Up up = Up::y;                     ///< of the world in whose coordinates the files are
+    /// m: where each particle lies on the flat cloth of an outline (Cloth::panel); empty: on the grid.
+    std::vector<std::array<double, 2>> panel{};
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Returns where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.

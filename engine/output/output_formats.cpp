@@ -51,6 +51,8 @@ std::string stream_format_names() {
 bool exported(const OutputFormat& format, bool drawn) { return &format != &png_format && (drawn || !format.draws); }
 
 std::array<float, 2> WrittenCloth::uv(std::size_t particle) const {
+    if (!panel.empty())
+        return {static_cast<float>(panel[particle][0] / size[0]), static_cast<float>(1 - panel[particle][1] / size[1])};
     const auto share = [](std::size_t index, std::uint32_t count) {
         return static_cast<float>(static_cast<double>(index) / (count - 1));
     };

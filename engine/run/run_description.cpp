@@ -128,7 +128,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
         const Cloth& description = scene.cloths[cloth];
         run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
                               description.grid[1], simulation.triangles(cloth), description.name, description.size,
-                              held_at_start(description), scene.up});
+                              held_at_start(description), scene.up, description.panel});
     }
     return run;
 }

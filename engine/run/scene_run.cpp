@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 
+#include "world/start.h"
 #include "world/surface_distance.h"
 #include "world/weather.h"
 
@@ -73,7 +74,9 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
 }
 
 ClothMeasure::ClothMeasure(const SceneDescription& scene, std::size_t index)
-    : grid(scene.cloths[index]), spacing(grid_spacing(scene.cloths[index])) {
+    : grid(scene.cloths[index]),
+      spacing(grid_spacing(scene.cloths[index])),
+      rest_ratios(drape::rest_ratios(scene.cloths[index])) {
     const Cloth& cloth = scene.cloths[index];
     mass.assign(grid.particle_count(), 0);
     // Each triangle adds to its corners so that a whole cell gives a quarter of its mass to each corner.
@@ -94,9 +97,11 @@ std::vector<double> spring_strains(const SceneRun& run, std::size_t frame, std::
         for (std::uint32_t column = 0; column + (down ? 0 : 1) < grid.columns(); ++column) {
             const glsl::vec4 shares = grid.spring_shares(column, row);
             if ((down ? shares.y : shares.x) == 0) continue;
-            const Vec3 first = run.at(frame, cloth, grid.particle(column, row));
+            const std::size_t owner = grid.particle(column, row);
+            const double rest = measure.spacing[down ? 1 : 0] * measure.rest_ratios[owner][down ? 1 : 0];
+            const Vec3 first = run.at(frame, cloth, owner);
             const Vec3 second = run.at(frame, cloth, grid.particle(column + (down ? 0 : 1), row + (down ? 1 : 0)));
-            strains.push_back(length(minus(second, first)) / measure.spacing[down ? 1 : 0] - 1);
+            strains.push_back(length(minus(second, first)) / rest - 1);
         }
     return strains;
 }

@@ -55,8 +55,9 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
 struct ClothMeasure {
     ClothMeasure(const SceneDescription& scene, std::size_t cloth);
     Grid grid;
-    std::array<double, 2> spacing;  ///< m
-    std::vector<double> mass;       ///< kg; 0 for a particle without cells
+    std::array<double, 2> spacing;                   ///< m
+    std::vector<double> mass;                        ///< kg; 0 for a particle without cells
+    std::vector<std::array<double, 4>> rest_ratios;  ///< by particle and direction (world/start.h)
 };
 
 /// Returns the strains of the existing springs along columns (`down`) or along rows.

@@ -80,6 +80,14 @@ TEST_P(Format, AFullDiskIsSaidAndLeavesNoHalfFile) {
 INSTANTIATE_TEST_SUITE_P(Of, Format, testing::ValuesIn(output_formats().begin(), output_formats().end()),
                          [](const auto& test) { return std::string(test.param->name); });
 
+TEST(WrittenCloth, TextureCoordinatesOfAnOutlineAreItsPlaces) {
+    const WrittenCloth grid{.columns = 2, .rows = 2, .size = {4, 2}},
+        outlined{.columns = 2, .rows = 2, .size = {4, 2}, .panel = {{0, 0}, {3, 0.5}, {0, 2}, {4, 1.5}}};
+    EXPECT_EQ(grid.uv(1), (std::array<float, 2>{1, 1}));
+    EXPECT_EQ(outlined.uv(1), (std::array<float, 2>{0.75, 0.75}));
+    EXPECT_EQ(outlined.uv(3), (std::array<float, 2>{1, 0.25}));
+}
+
 TEST(Formats, HaveNamesOfTheirOwn) {
     for (const OutputFormat* format : output_formats()) EXPECT_EQ(find_output_format(format->name), format);
     EXPECT_EQ(find_output_format("fbx"), nullptr);

@@ -185,6 +185,7 @@ py::array_t<float> uv(const PySimulation& self, const py::object& which) {
     const Cloth& cloth = self.scene().cloths[self.cloth(which)];
     WrittenCloth written;
     written.columns = cloth.grid[0], written.rows = cloth.grid[1];
+    written.size = cloth.size, written.panel = cloth.panel;
     py::array_t<float> array({cloth.grid[1], cloth.grid[0], 2u});
     float* to = array.mutable_data();
     for (std::size_t particle = 0; particle < std::size_t{cloth.grid[0]} * cloth.grid[1]; ++particle, to += 2)
