@@ -81,7 +81,7 @@ Program::Program(std::vector<std::string> arguments)
     : arguments_(std::move(arguments)),
       app_(std::make_unique<CLI::App>("drape: cloth simulation by Vulkan compute; scene file in, PNG sequence out.",
                                       "drape")) {
-    app_->set_version_flag("-V,--version", std::string("drape ") + program_version());
+    app_->set_version_flag("-V,--version", fmt::format("drape {} (commit {})", program_version(), program_commit()));
     app_->require_subcommand(1);
     app_->formatter(std::make_shared<HelpFormatter>());  // commands inherit it
     app_->footer(examples + exit_code_table());

@@ -13,8 +13,9 @@ using vulkan::structure;
 /// Records a plan for one frame slot.
 class Recorder {
   public:
-    Recorder(const Graph& graph, const Plan& plan, const ResourcePool& pool, const BarrierFilter& keep)
-        : graph_(graph), plan_(plan), pool_(pool), keep_(keep) {
+    Recorder(const Graph& graph, const Plan& plan, const ResourcePool& pool, const BarrierFilter& keep,
+             vulkan::Descriptors& descriptors)
+        : graph_(graph), plan_(plan), pool_(pool), keep_(keep), descriptors_(descriptors) {
         if (!pool.device().instance().validation()) return;
         const VkInstance instance = pool.device().instance().handle();
         begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
@@ -61,7 +62,7 @@ class Recorder {
             emit(commands, planned.barriers);
         }
         if (pass.execute) {
-            PassContext context(commands, slot, graph_, pass, pool_);
+            PassContext context(commands, slot, graph_, pass, pool_, descriptors_);
             pass.execute(context);
         }
         if (end_label_) end_label_(commands);
@@ -132,6 +133,7 @@ class Recorder {
     const Plan& plan_;
     const ResourcePool& pool_;
     const BarrierFilter& keep_;
+    vulkan::Descriptors& descriptors_;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 };
@@ -141,7 +143,7 @@ RecordedPlan::RecordedPlan(const Graph& graph, const Plan& plan, const ResourceP
     : RecordedPlan(pool.device(), Empty{}) {
     set_brackets(graph, plan, timestamps);
     make_pools();
-    const Recorder recorder(graph, plan, pool, keep);
+    const Recorder recorder(graph, plan, pool, keep, descriptors_);
     for (std::uint32_t slot = 0; slot < commands_.size(); ++slot) {
         recorder.record(commands_[slot], slot, queries_[slot], ticks_.empty() ? nullptr : &ticks_[slot],
                         bracket_begins_);

@@ -13,6 +13,7 @@
 
 #include "graph/plan.h"
 #include "graph/push_constants.h"
+#include "vulkan/descriptors.h"
 #include "vulkan/frame_slots.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
@@ -71,7 +72,7 @@ class PassContext {
     /// Returns the image's layout during this pass, which its declared access decides. Throws as `image` does.
     VkImageLayout layout(Handle handle) const;
 
-    /// Binds the pipeline, pushes every declared use that has a variable, and the push constants, then dispatches
+    /// Binds the pipeline and every declared use that has a variable, pushes the push constants, then dispatches
     /// enough workgroups for width x height invocations, `depth` layers of them. Throws GraphError, naming pass,
     /// pipeline and variable, when the pipeline's descriptors and the declared variables differ (one missing on either
     /// side, image against buffer, read against write, format, layout of a buffer's elements), or the push constants'
@@ -91,20 +92,21 @@ class PassContext {
   private:
     friend class Recorder;
     PassContext(VkCommandBuffer commands, std::uint32_t slot, const Graph& graph, const Pass& pass,
-                const ResourcePool& pool)
-        : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool) {}
+                const ResourcePool& pool, vulkan::Descriptors& descriptors)
+        : commands_(commands), slot_(slot), graph_(graph), pass_(pass), pool_(pool), descriptors_(descriptors) {}
     const Use& use_of(Handle handle) const;
     void bind_uses(const vulkan::ComputePipeline& pipeline);
     void check_use(const vulkan::Pipeline& pipeline, const Use& use) const;
     /// Checks kind, format and element.
     void check_resource(const vulkan::Pipeline& pipeline, std::string_view variable, const Resource& resource) const;
-    void push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
+    void bind_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings);
     [[noreturn]] void refuse(const vulkan::Pipeline& pipeline, std::string_view variable, const std::string& why) const;
     VkCommandBuffer commands_;
     std::uint32_t slot_;
     const Graph& graph_;
     const Pass& pass_;
     const ResourcePool& pool_;
+    vulkan::Descriptors& descriptors_;
 };
 
 struct Timing {
@@ -134,11 +136,12 @@ class RecordedPlan {
   private:
     struct Empty {};
     /// Makes an object without handles. After this constructor, an exception in the delegating one runs the destructor.
-    RecordedPlan(const vulkan::Device& device, Empty) : device_(device) {}
+    RecordedPlan(const vulkan::Device& device, Empty) : device_(device), descriptors_(device) {}
     void set_brackets(const Graph& graph, const Plan& plan, TimestampMode timestamps);
     void make_pools();
 
     const vulkan::Device& device_;
+    vulkan::Descriptors descriptors_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     std::array<VkCommandBuffer, vulkan::frame_slot_count> commands_{};
     std::array<VkQueryPool, vulkan::frame_slot_count> queries_{};

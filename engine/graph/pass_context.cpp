@@ -111,7 +111,7 @@ void PassContext::bind_uses(const vulkan::ComputePipeline& pipeline) {
         check_use(pipeline, use);
         bindings.push_back({use.variable, use.handle});
     }
-    push_descriptors(pipeline, bindings);
+    bind_descriptors(pipeline, bindings);
 }
 
 void PassContext::bind(const vulkan::GraphicsPipeline& pipeline, std::span<const Binding> bindings) {
@@ -130,10 +130,10 @@ void PassContext::bind(const vulkan::GraphicsPipeline& pipeline, std::span<const
                        fmt::format("the pass does not declare {}", access_name(stage.access)));
         }
     }
-    push_descriptors(pipeline, bindings);
+    bind_descriptors(pipeline, bindings);
 }
 
-void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings) {
+void PassContext::bind_descriptors(const vulkan::Pipeline& pipeline, std::span<const Binding> bindings) {
     const auto& descriptors = pipeline.descriptors();
     if (bindings.size() > descriptors.size()) refuse(pipeline, bindings.back().variable, "bound twice");
     std::vector<VkDescriptorImageInfo> images(descriptors.size());
@@ -146,11 +146,11 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
         writes[d] = vulkan::structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
         writes[d].dstBinding = descriptors[d].binding;
         writes[d].descriptorCount = 1;
-        writes[d].descriptorType = vulkan::descriptor_type(*descriptors[d].kind);
+        writes[d].descriptorType = vulkan::descriptor_type(pool_.device(), *descriptors[d].kind);
         if (descriptors[d].kind == DescriptorKind::storage_image) {
             images[d] = {VK_NULL_HANDLE, image(bound->handle).view(), layout(bound->handle)};
             writes[d].pImageInfo = &images[d];
-        } else if (descriptors[d].kind == DescriptorKind::texel_buffer) {
+        } else if (writes[d].descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER) {
             texels[d] = buffer(bound->handle).texels();
             writes[d].pTexelBufferView = &texels[d];
         } else {
@@ -160,9 +160,7 @@ void PassContext::push_descriptors(const vulkan::Pipeline& pipeline, std::span<c
         }
     }
     vkCmdBindPipeline(commands_, pipeline.bind_point(), pipeline.handle());
-    if (writes.empty()) return;
-    vkCmdPushDescriptorSetKHR(commands_, pipeline.bind_point(), pipeline.layout(), 0,
-                              static_cast<std::uint32_t>(writes.size()), writes.data());
+    if (!writes.empty()) descriptors_.bind(commands_, pipeline, writes);
 }
 
 void PassContext::push(const vulkan::Pipeline& pipeline, const PushConstants& push_constants) {

@@ -121,13 +121,14 @@ vulkan::ImageDescription describe_image(const Wanted& wanted) {
     return {image.name, image.format, image.width, image.height, usage, image.samples, shares, slices};
 }
 
-vulkan::BufferDescription describe_buffer(const Wanted& wanted, std::uint32_t copy) {
+vulkan::BufferDescription describe_buffer(const vulkan::Device& device, const Wanted& wanted, std::uint32_t copy) {
     const Resource& resource = *wanted.resource;
     vulkan::BufferDescription description;
     description.name = copy_count(resource) > 1 ? fmt::format("{} (slot {})", resource.name, copy) : resource.name;
     description.byte_count = resource.buffer.byte_count;
     description.usage = wanted.buffer_usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (resource.buffer.texels) description.usage |= VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    if (resource.buffer.texels && device.capabilities().texel_buffers)
+        description.usage |= VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     if (resource.lifetime == Lifetime::host_input) description.home = vulkan::BufferHome::upload;
     if (resource.lifetime == Lifetime::host_output) description.home = vulkan::BufferHome::readback;
     return description;
@@ -175,7 +176,7 @@ ResourcePool::ResourcePool(const vulkan::Device& device, std::span<const std::pa
         }
         std::vector<vulkan::Buffer>& copies = buffers_[name];
         for (std::uint32_t copy = 0; copy < copy_count(*wanted.resource); ++copy) {
-            copies.emplace_back(device, describe_buffer(wanted, copy));
+            copies.emplace_back(device, describe_buffer(device, wanted, copy));
         }
     }
     device.run_once([&](VkCommandBuffer commands) {

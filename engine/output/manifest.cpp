@@ -264,6 +264,7 @@ Json::Value frameless_json(const Manifest& manifest) {
     Json::Value json;
     json["format"] = std::string(manifest_format);
     json["program_version"] = manifest.program_version;
+    json["program_commit"] = manifest.program_commit;
     json["status"] = manifest.status;
     if (!manifest.failure.empty()) json["failure"] = manifest.failure;
     if (!manifest.reproducer.empty()) json["reproducer"] = manifest.reproducer;

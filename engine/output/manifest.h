@@ -114,7 +114,7 @@ struct Manifest {
     };
     using FrameVisitor = std::function<void(const FrameStatistics&)>;
 
-    std::string program_version;
+    std::string program_version, program_commit;
     // "diverged", "tolerance missed": the run ended before its end, with what came before, or went on as it was asked
     // to; "device failed", "output failed", "out of memory", "internal error": it broke off; "validation messages"
     std::string status = "done";

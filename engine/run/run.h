@@ -106,6 +106,9 @@ SceneDescription asked_scene(const SceneRequest& request);
 std::string describe_graph(const SceneRequest& request, bool draw, const std::string& format);
 
 const char* program_version();
+/// Returns the hash of the commit that this was built from, with "-modified" where the sources had been changed, or
+/// "unknown" where neither a history nor an archive's mark told.
+const char* program_commit();
 
 struct LoadedScene {
     SceneDescription description;

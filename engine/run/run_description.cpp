@@ -80,6 +80,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     const SimulationFacts facts = simulation.facts();
     Manifest manifest;
     manifest.program_version = program_version();
+    manifest.program_commit = program_commit();
     manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
     manifest.device = {device.name, device.driver, device.driver_version, device.api_version, device.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};

@@ -24,6 +24,7 @@
 #include "simulation/state_checksum.h"
 #include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
+#include "vulkan/device_requirements.h"
 
 namespace drape {
 
@@ -61,6 +62,7 @@ Device Device::for_scene(const SceneDescription& scene, bool draws, const std::s
 }
 
 std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
+std::string Device::requirements() { return vulkan::device_requirements_document(); }
 const DeviceInfo& Device::info() const { return parts_->device.info(); }
 
 std::uint64_t Device::validation_count() const {

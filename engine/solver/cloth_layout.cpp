@@ -43,7 +43,7 @@ ClothLayout::ClothLayout(const vulkan::Device& device, const SimulationModel& of
 
 void ClothLayout::find_together(const vulkan::Device& device) {
     const auto fit = [&](const ClothModel& cloth, std::size_t count) {
-        return cloth.tethers.size() * count <= device.limits().maxTexelBufferElements &&
+        return cloth.tethers.size() * count <= device.capabilities().most_texels &&
                state_obstacle(device, cloth.grid, static_cast<std::uint32_t>(count), kernels.has(Kernel::buffer_store))
                    .empty();
     };

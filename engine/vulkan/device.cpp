@@ -81,11 +81,10 @@ DeviceInfo selected(const Instance& instance, std::string_view selector) {
 
 }  // namespace
 
-Device::Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked)
+Device::Device(const Instance& instance, std::string_view selector, std::span<const std::string_view> without)
     : Device(instance, selected(instance, selector), Empty{}) {
     physical_ = instance.physical_device(info_.index);
-    read_limits();
-    read_features(asked);
+    read_capabilities(without);
     create();
     vkGetDeviceQueue(handle_, queue_family_, 0, &queue_);
     auto pool = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
@@ -100,53 +99,36 @@ Device::Device(const Instance& instance, std::string_view selector, const Option
     set_name(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<std::uint64_t>(once_pool_), "set-up");
 }
 
-void Device::read_limits() {
-    auto properties11 =
-        structure<VkPhysicalDeviceVulkan11Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
-    auto properties13 =
-        structure<VkPhysicalDeviceVulkan13Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
-    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-    auto all = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
-    all.pNext = &properties11;
-    properties11.pNext = &properties13;
-    properties13.pNext = &push;
-    vkGetPhysicalDeviceProperties2(physical_, &all);
-    capabilities_.limits = all.properties.limits;
-    capabilities_.max_push_descriptors = push.maxPushDescriptors;
-    capabilities_.max_buffer_size = properties13.maxBufferSize;
-    capabilities_.max_allocation_size = properties11.maxMemoryAllocationSize;
-    const bool shuffles = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-                          (properties11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT);
-    capabilities_.subgroup = properties11.subgroupSize;
-    capabilities_.shuffling_lanes = shuffles ? properties11.subgroupSize : 0;
-
+void Device::read_capabilities(std::span<const std::string_view> without) {
+    const DeviceFacts facts(physical_);
+    for (const std::string_view key : without) info_.lacks.emplace_back(optional_requirement(key).key);
+    const auto has = [this](std::string_view key) { return std::ranges::find(info_.lacks, key) == info_.lacks.end(); };
+    capabilities_.limits = facts.properties.limits;
+    capabilities_.max_buffer_size = facts.properties13.maxBufferSize;
+    capabilities_.max_allocation_size = facts.properties11.maxMemoryAllocationSize;
+    capabilities_.push_descriptors = has("push_descriptors");
+    capabilities_.max_push_descriptors = facts.max_push_descriptors;
+    capabilities_.texel_buffers = has("texel_buffers");
+    capabilities_.most_texels = capabilities_.texel_buffers ? limits().maxTexelBufferElements
+                                                            : limits().maxStorageBufferRange / (4 * sizeof(float));
+    capabilities_.subgroup = facts.properties11.subgroupSize;
+    capabilities_.shuffling_lanes = has("shuffles") ? facts.shuffling_lanes() : 0;
+    capabilities_.full_subgroups = has("full_subgroups");
+    capabilities_.wide_integers = has("wide_integers");
+    capabilities_.wide_atomics = has("wide_integers") && has("wide_atomics");
+    capabilities_.samples_in_shaders = has("samples_in_shaders");
+    capabilities_.timestamp_valid_bits = has("timestamps") ? facts.timestamp_valid_bits : 0;
+    // What it only seems to lack is as small as Vulkan allows.
+    const auto pretends = [&](std::string_view key) { return !has(key) && optional_requirement(key).has(facts); };
+    if (pretends("shared_memory")) {
+        capabilities_.limits.maxComputeSharedMemorySize = 16384;
+        capabilities_.limits.maxComputeWorkGroupInvocations = 128;
+    }
+    if (pretends("storage_images")) capabilities_.limits.maxPerStageDescriptorStorageImages = 4;
+    if (pretends("storage_buffers")) capabilities_.limits.maxPerStageDescriptorStorageBuffers = 4;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    budget_ = MemoryBudget(memory_budget_limit(memory_, all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
-
-    queue_family_ = find_queue_family(physical_).value();  // a usable device has one
-    std::uint32_t count = queue_family_ + 1;
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-    capabilities_.timestamp_valid_bits = families[queue_family_].timestampValidBits;
-}
-
-void Device::read_features(const OptionalFeatures& asked) {
-    auto features12 =
-        structure<VkPhysicalDeviceVulkan12Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES);
-    auto features13 =
-        structure<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-    features12.pNext = &features13;
-    auto all = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
-    all.pNext = &features12;
-    vkGetPhysicalDeviceFeatures2(physical_, &all);
-    capabilities_.full_subgroups = features13.computeFullSubgroups == VK_TRUE;
-    capabilities_.wide_integers = all.features.shaderInt64 == VK_TRUE;
-    capabilities_.wide_atomics =
-        asked.wide_atomics && capabilities_.wide_integers && features12.shaderBufferInt64Atomics == VK_TRUE;
-    capabilities_.samples_in_shaders = asked.samples_in_shaders &&
-                                       all.features.shaderStorageImageMultisample == VK_TRUE &&
-                                       (limits().storageImageSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
+    budget_ = MemoryBudget(memory_budget_limit(memory_, facts.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
+    queue_family_ = facts.queue_family.value();  // a usable device has one
 }
 
 void Device::create() {
@@ -164,6 +146,8 @@ void Device::create() {
     features.shaderClipDistance = VK_TRUE;
     features.shaderInt64 = capabilities_.wide_integers ? VK_TRUE : VK_FALSE;
     features.shaderStorageImageMultisample = capabilities_.samples_in_shaders ? VK_TRUE : VK_FALSE;
+    // As a load beyond a texel buffer does, one beyond a storage buffer then harms nothing. Every device has it.
+    features.robustBufferAccess = capabilities_.texel_buffers ? VK_FALSE : VK_TRUE;
     constexpr float priority = 1.0f;
     auto queue = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = queue_family_;
@@ -175,7 +159,7 @@ void Device::create() {
     info.pEnabledFeatures = &features;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = 1;
+    info.enabledExtensionCount = capabilities_.push_descriptors ? 1 : 0;
     info.ppEnabledExtensionNames = extensions;
     const VkResult result = vkCreateDevice(physical_, &info, nullptr, &handle_);
     if (result != VK_SUCCESS) handle_ = VK_NULL_HANDLE;

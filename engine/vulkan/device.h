@@ -34,12 +34,6 @@ class MemoryBudget {
 /// % of what the system says is available.
 std::uint64_t memory_budget_limit(const VkPhysicalDeviceMemoryProperties& memory, bool cpu);
 
-/// Features are used where a device has them. false: as on devices without, for tests of what is done there.
-struct OptionalFeatures {
-    bool wide_atomics = true;
-    bool samples_in_shaders = true;
-};
-
 /// What a device has, and offers beyond what every device must (device_requirements.h).
 struct DeviceCapabilities {
     VkPhysicalDeviceLimits limits{};
@@ -51,7 +45,10 @@ struct DeviceCapabilities {
     std::uint32_t subgroup = 0;         ///< invocations in one
     std::uint32_t shuffling_lanes = 0;  ///< of a subgroup of compute shaders; 0 where they cannot shuffle
     bool shuffles(std::uint32_t lanes) const { return shuffling_lanes == lanes; }
+    bool push_descriptors = false;  ///< else sets are bound
     std::uint32_t max_push_descriptors = 0;
+    bool texel_buffers = false;     ///< else shaders have storage buffers in their place (texel_storage.h)
+    std::uint64_t most_texels = 0;  ///< of either, 16 bytes each
     std::uint64_t max_buffer_size = 0;
     std::uint64_t max_allocation_size = 0;
 };
@@ -63,9 +60,9 @@ class Device {
   public:
     /// `selector`: INDEX, NAME (unique, case-insensitive part), UUID or "cpu"; empty: what the environment variable
     /// DRAPE_DEVICE says, else a GPU when there is one. Throws VulkanError listing the devices and why each was
-    /// rejected.
-    /// The instance must outlive the device.
-    Device(const Instance& instance, std::string_view selector, const OptionalFeatures& asked = {});
+    /// rejected. `without`: names of optional requirements (device_requirements.h) that it is used as if it lacked, for
+    /// tests of what is done there. The instance must outlive the device.
+    Device(const Instance& instance, std::string_view selector, std::span<const std::string_view> without = {});
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -112,8 +109,7 @@ class Device {
     struct Empty {};
     /// Holds nothing yet: once it returned, a throw in the delegating constructor runs the destructor.
     Device(const Instance& instance, DeviceInfo info, Empty);
-    void read_limits();
-    void read_features(const OptionalFeatures& asked);
+    void read_capabilities(std::span<const std::string_view> without);
     void create();
 
     const Instance& instance_;

@@ -37,7 +37,10 @@ bool is_general_layout_hint(VkDebugUtilsMessageTypeFlagsEXT types, std::string_v
 void load_loader() {
     // This is called once per process, since each volkInitialize opens the library again.
     static const VkResult result = volkInitialize();
-    if (result != VK_SUCCESS) throw VulkanError("no Vulkan loader found (libvulkan.so.1)");
+    if (result != VK_SUCCESS)
+        throw VulkanError(
+            "no Vulkan loader found (libvulkan.so.1, in Debian's package libvulkan1; a driver that runs on any CPU: "
+            "mesa-vulkan-drivers)");
     if (volkGetInstanceVersion() < VK_API_VERSION_1_3) {
         throw VulkanError("the Vulkan loader is older than 1.3");
     }

@@ -16,8 +16,9 @@ namespace {
 /// Throws unless `pipeline` may use this many storage images and buffers per stage.
 void require_counts(const Device& device, const std::string& pipeline, const ShaderStage& stage) {
     const std::vector<ReflectedDescriptor>& all = stage.reflected().descriptors;
-    const auto buffers = static_cast<std::uint32_t>(
-        std::ranges::count(all, std::optional(DescriptorKind::storage_buffer), &ReflectedDescriptor::kind));
+    const auto buffers = static_cast<std::uint32_t>(std::ranges::count_if(all, [&](const ReflectedDescriptor& each) {
+        return descriptor_type(device, *each.kind) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }));
     const auto images = static_cast<std::uint32_t>(all.size()) - buffers;  // Vulkan counts texel buffers as images
     const VkPhysicalDeviceLimits& limits = device.limits();
     if (images > limits.maxPerStageDescriptorStorageImages) {
@@ -32,14 +33,15 @@ void require_counts(const Device& device, const std::string& pipeline, const Sha
 
 }  // namespace
 
-VkDescriptorType descriptor_type(DescriptorKind kind) {
+VkDescriptorType descriptor_type(const Device& device, DescriptorKind kind) {
     switch (kind) {
         case DescriptorKind::storage_image:
             return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         case DescriptorKind::storage_buffer:
             return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         case DescriptorKind::texel_buffer:
-            return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+            return device.capabilities().texel_buffers ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                                       : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     }
     throw std::logic_error("no such kind of descriptor");
 }
@@ -90,7 +92,8 @@ void Pipeline::merge(const ShaderStage& stage) {
 
 void Pipeline::make_layout_handles() {
     const std::uint32_t push_constant_size = push_constants_ ? push_constants_->size : 0;
-    if (descriptors_.size() > device_.capabilities().max_push_descriptors) {
+    const bool pushes = device_.capabilities().push_descriptors;
+    if (pushes && descriptors_.size() > device_.capabilities().max_push_descriptors) {
         throw VulkanError(fmt::format("pipeline {} has {} descriptors, the device can push {}", name_,
                                       descriptors_.size(), device_.capabilities().max_push_descriptors));
     }
@@ -100,9 +103,10 @@ void Pipeline::make_layout_handles() {
     }
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const ReflectedDescriptor& descriptor : descriptors_)
-        bindings.push_back({descriptor.binding, descriptor_type(*descriptor.kind), 1, descriptor.stages, nullptr});
+        bindings.push_back(
+            {descriptor.binding, descriptor_type(device_, *descriptor.kind), 1, descriptor.stages, nullptr});
     auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
+    set.flags = pushes ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
     set.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set.pBindings = bindings.data();
     create_handle(vkCreateDescriptorSetLayout, device_.handle(), set, set_layout_, "vkCreateDescriptorSetLayout",

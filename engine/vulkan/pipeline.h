@@ -1,4 +1,5 @@
-// Pipelines use push descriptors (set 0); their layouts are derived from the shader modules.
+// Pipelines have one set of descriptors (set 0, bound by Descriptors); their layouts are derived from the shader
+// modules.
 #pragma once
 
 #include <array>
@@ -20,11 +21,12 @@ struct Shader {
     std::span<const std::uint32_t> words = {};  ///< tests pass this SPIR-V instead of the module of that name
 };
 
-VkDescriptorType descriptor_type(DescriptorKind kind);
+/// A texel buffer is a storage buffer on a device without those that Drape needs.
+VkDescriptorType descriptor_type(const Device& device, DescriptorKind kind);
 
 class ShaderStage;
 
-/// The common base of compute and graphics pipelines. Descriptors are pushed at record time (VK_KHR_push_descriptor).
+/// The common base of compute and graphics pipelines.
 class Pipeline {
   public:
     virtual ~Pipeline();
@@ -32,6 +34,7 @@ class Pipeline {
     Pipeline& operator=(const Pipeline&) = delete;
     VkPipeline handle() const { return handle_; }
     VkPipelineLayout layout() const { return layout_; }
+    VkDescriptorSetLayout set_layout() const { return set_layout_; }
     VkPipelineBindPoint bind_point() const { return bind_point_; }
     const std::string& name() const { return name_; }
     /// Returns the descriptors that the specialised stages use, all stages together, sorted by binding.

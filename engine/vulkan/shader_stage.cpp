@@ -7,6 +7,7 @@
 
 #include "vulkan/api.h"
 #include "vulkan/structure.h"
+#include "vulkan/texel_storage.h"
 
 namespace drape::vulkan {
 
@@ -86,9 +87,11 @@ ShaderStage::ShaderStage(const Device& device, const std::string& pipeline, cons
         require_local_size(device.limits(), pipeline, reflected_.local_size);
     else
         require_varyings(device.limits(), pipeline, name_, reflected_.varying_locations);
+    const std::vector<std::uint32_t> words =
+        device.capabilities().texel_buffers ? specialised.words : texels_as_storage(specialised.words);
     auto info = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-    info.codeSize = specialised.words.size() * sizeof(std::uint32_t);
-    info.pCode = specialised.words.data();
+    info.codeSize = words.size() * sizeof(std::uint32_t);
+    info.pCode = words.data();
     // This comes last: an exception after the module's creation would leak it, since the destructor would not run.
     create_handle(vkCreateShaderModule, device.handle(), info, module_, "vkCreateShaderModule", name_);
 }

@@ -60,6 +60,28 @@ TEST(Devices, AreChosenByIndexUuidAndTheEnvironment) {
     EXPECT_EQ(uuid({"--device", index}, {"DRAPE_DEVICE=no such device"}), chosen);
 }
 
+/// Of a whole run: descriptor sets, storage buffers for texels, the smallest groups.
+TEST(Devices, WithoutWhatADeviceMayLackARunHasTheSameBytes) {
+    const SceneFolder folder(small_scene(3));
+    const auto bytes = [&](const std::string& without) {
+        const Outcome outcome = drape({"render", folder.scene(), "-o", folder.out(), "--overwrite", "--validate",
+                                       "--export", "npy", "--size", "96x54"},
+                                      {.environment = {"DRAPE_WITHOUT=" + without}});
+        EXPECT_EQ(outcome.code, 0) << without << ": " << outcome.err;
+        std::map<std::string, std::string> files = everything_below(folder.out());
+        files.erase("manifest.json");
+        return files;
+    };
+    const auto usual = bytes("");
+    EXPECT_GE(usual.size(), 4u);
+    EXPECT_EQ(bytes("push_descriptors,texel_buffers,wide_integers,wide_atomics,shuffles,full_subgroups,shared_memory,"
+                    "timestamps"),
+              usual);
+    const Outcome wrong = drape({"devices"}, {.environment = {"DRAPE_WITHOUT=depth"}});
+    EXPECT_EQ(wrong.code, 4);
+    EXPECT_THAT(wrong.err, HasSubstr("'depth' is nothing that a device may lack"));
+}
+
 TEST(Devices, AnUnknownOneInTheEnvironmentIsRefusedByWhateverNeedsADevice) {
     const SceneFolder folder(small_scene(2));
     for (const std::vector<std::string>& arguments :

@@ -99,7 +99,8 @@ TEST(Help, FormatsAreThoseOfTheTable) {
 TEST(Help, VersionIsData) {
     const Outcome outcome = drape({"--version"});
     EXPECT_EQ(outcome.code, 0);
-    EXPECT_THAT(outcome.out, testing::MatchesRegex("drape [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+    EXPECT_THAT(outcome.out,
+                testing::MatchesRegex("drape [0-9]+\\.[0-9]+\\.[0-9]+ \\(commit [0-9a-f]+(-modified)?\\)\n"));
 }
 
 struct WrongUsage {

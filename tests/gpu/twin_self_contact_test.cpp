@@ -1,6 +1,7 @@
 // Contact between cloths on the device against the twin, which looks for pairs among all that there are.
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
+#include "vulkan/device_requirements.h"
 
 namespace drape {
 namespace {
@@ -21,10 +22,26 @@ TEST(TwinSelfContactTest, Line) { expect_contact(crumpling(17, SolverMethod::lin
 
 /// Sums are added up in integers of 64 bits, two at a time, where a device has them: with the same result.
 TEST(TwinSelfContactTest, WithoutWideAtomics) {
-    const vulkan::Device narrow(test::gpu().instance, test::gpu().device.info().uuid_text(), {.wide_atomics = false});
+    const std::string_view without[] = {"wide_atomics"};
+    const vulkan::Device narrow(test::gpu().instance, test::gpu().device.info().uuid_text(), without);
     EXPECT_FALSE(narrow.capabilities().wide_atomics);
     const glsl::SelfRecord last = compare(crumpling(15, SolverMethod::line, 16), {}, narrow);
     EXPECT_GT(last.most_pairs, 20u) << "nothing met";
+}
+
+/// Where a device binds sets, has storage buffers in place of texel buffers, and groups as small as Vulkan allows.
+TEST(TwinSelfContactTest, WithoutWhatADeviceMayLack) {
+    std::vector<std::string_view> without;
+    for (const vulkan::DeviceRequirement& each : vulkan::device_requirements())
+        if (!each.without.empty() && each.key != "storage_images" && each.key != "storage_buffers")
+            without.push_back(each.key);
+    const vulkan::Device bare(test::gpu().instance, test::gpu().device.info().uuid_text(), without);
+    EXPECT_FALSE(bare.capabilities().push_descriptors || bare.capabilities().texel_buffers);
+    const glsl::SelfRecord last = compare(crumpling(15, SolverMethod::line, 16), {}, bare);
+    EXPECT_GT(last.most_pairs, 20u) << "nothing met";
+    SceneDescription scene = test::everything();
+    scene.solver.tethers = true;
+    compare(scene, {}, bare);
 }
 
 TEST(TwinSelfContactTest, WithHolesOnAGridOfNoPowerOfTwo) {

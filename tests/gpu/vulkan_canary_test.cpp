@@ -6,6 +6,7 @@
 
 #include "gpu_test.h"
 #include "vulkan/api.h"
+#include "vulkan/descriptors.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
@@ -32,6 +33,7 @@ struct Chain {
     vulkan::ComputePipeline copy{gpu().device, "canary", {"canary.comp"}, {}};
     Image first = make_image("first"), second = make_image("second"), third = make_image("third");
     std::vector<float> texels = std::vector<float>(width * height * 4);
+    mutable vulkan::Descriptors descriptors{gpu().device};
 
     Chain() {
         for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i) + 0.25f;
@@ -52,7 +54,7 @@ struct Chain {
             writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
             writes[i].pImageInfo = &images[i];
         }
-        vkCmdPushDescriptorSetKHR(commands, copy.bind_point(), copy.layout(), 0, 2, writes);
+        descriptors.bind(commands, copy, writes);
         const auto [x, y, z] = copy.local_size();
         vkCmdDispatch(commands, (width + x - 1) / x, (height + y - 1) / y, 1);
     }

@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
 
 #include "gpu_test.h"
 #include "vulkan/api.h"
+#include "vulkan/device_requirements.h"
 #include "vulkan/device_selection.h"
+#include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan_error.h"
 
@@ -55,6 +59,38 @@ const std::vector<DeviceInfo> machine = {
     device(2, "Small GPU", "integrated"), device(3, "Big GPU", "discrete"), device(4, "Big GPU Plus", "discrete")};
 
 }  // namespace
+
+TEST(VulkanDevice, what_it_lacks_is_documented_and_named) {
+    std::ifstream file(DRAPE_SOURCE_DIR "/engine/docs/devices.md");
+    const std::string document{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_THAT(document, HasSubstr("\n\n" + vulkan::device_requirements_document() + "\n"))
+        << "build/drape devices --needs";
+    const Environment without("DRAPE_WITHOUT", "texel_buffers,push_descriptors");
+    const vulkan::Instance instance({});
+    const vulkan::Device device(instance, "cpu");
+    EXPECT_THAT(device.info().lacks, testing::IsSupersetOf({"texel_buffers", "push_descriptors"}));
+    EXPECT_FALSE(device.capabilities().push_descriptors || device.capabilities().texel_buffers);
+}
+
+TEST(VulkanDevice, what_no_device_may_lack_is_refused) {
+    for (const char* key : {"synchronization2", "textures", "wide_atomics,"}) {
+        const Environment without("DRAPE_WITHOUT", key);
+        if (std::string_view(key).ends_with(',')) {
+            EXPECT_NO_THROW(vulkan::Instance({})) << key;
+            continue;
+        }
+        EXPECT_THAT([] { vulkan::Instance instance({}); },
+                    testing::ThrowsMessage<VulkanError>(HasSubstr("is nothing that a device may lack")));
+    }
+}
+
+/// A pass beyond the device's descriptors is refused by name, before anything is made of it.
+TEST(VulkanDevice, a_pipeline_of_more_descriptors_than_a_stage_has_is_refused) {
+    const std::string_view without[] = {"storage_images", "storage_buffers"};
+    const vulkan::Device small(gpu().instance, gpu().device.info().uuid_text(), without);
+    EXPECT_THAT([&] { small.compute_pipeline("predict.comp"); },
+                testing::ThrowsMessage<VulkanError>(AllOf(HasSubstr("predict.comp"), HasSubstr("limit is 4"))));
+}
 
 TEST(VulkanDeviceSelection, prefers_a_gpu_of_the_best_type_that_can_be_used) {
     EXPECT_EQ(select_device(machine, "").index, 3u);

@@ -9,6 +9,7 @@
 
 #include "gpu_test.h"
 #include "vulkan/api.h"
+#include "vulkan/descriptors.h"
 #include "vulkan/pipeline.h"
 #include "vulkan/resources.h"
 #include "vulkan/structure.h"
@@ -20,6 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using vulkan::Buffer;
 using vulkan::ComputePipeline;
+using vulkan::Descriptors;
 using vulkan::GraphicsPipeline;
 using vulkan::Image;
 using vulkan::Shader;
@@ -110,7 +112,7 @@ class TriangleFrame {
         write.descriptorCount = 1;
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         write.pImageInfo = &image;
-        vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
+        descriptors_.bind(commands, pipeline, std::span(&write, 1));
         constexpr std::array<float, 4> tint = {0, 1, 0, 0};
         vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0,
                            pipeline.push_constants()->size, tint.data());
@@ -118,6 +120,7 @@ class TriangleFrame {
         vkCmdEndRendering(commands);
     }
 
+    mutable Descriptors descriptors_{gpu().device};
     Image corners_{
         gpu().device,
         {"corners", VK_FORMAT_R32G32B32A32_SFLOAT, 3, 1, VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
@@ -136,6 +139,7 @@ std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<
     const std::uint64_t bytes = source.size() * sizeof(float);
     const Buffer from(device, {"from", bytes, usage}), to(device, {"to", bytes, usage});
     upload(device, from, std::as_bytes(std::span(source)));
+    Descriptors descriptors(device);
     device.run_once([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, pipeline.bind_point(), pipeline.handle());
         const VkDescriptorBufferInfo buffers[] = {{from.handle(), 0, VK_WHOLE_SIZE}, {to.handle(), 0, VK_WHOLE_SIZE}};
@@ -143,7 +147,7 @@ std::vector<float> run_scale(const ComputePipeline& pipeline, const std::vector<
         write.descriptorCount = 2;  // runs on from binding 0 into binding 1
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers;
-        vkCmdPushDescriptorSetKHR(commands, pipeline.bind_point(), pipeline.layout(), 0, 1, &write);
+        descriptors.bind(commands, pipeline, std::span(&write, 1));
         const ScalePush push{static_cast<std::uint32_t>(source.size()), term};
         vkCmdPushConstants(commands, pipeline.layout(), pipeline.push_constant_stages(), 0, sizeof(push), &push);
         const std::uint32_t x = pipeline.local_size()[0];

@@ -35,6 +35,7 @@ std::string manifest_json(const Manifest& manifest) {
 Manifest example() {
     Manifest manifest;
     manifest.program_version = "0.1.0";
+    manifest.program_commit = "89ab-modified";
     manifest.scene = {"scenes/flag.json", "flag \"red\"\n", "0123456789abcdef0123456789abcdef", {"/gravity/1=-1.62"}};
     manifest.device = {"llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe", "Mesa 22.3.6", "1.3.230", "6d657361"};
     manifest.frames = {0, 239, 2, 120, 60};
@@ -74,6 +75,7 @@ constexpr const char* golden = R"json({
   "format": "drape manifest 1",
   "frames": {"count": 120, "end": 239, "fps": 60, "start": 0, "step": 2},
   "picture": {"height": 720, "samples": 4, "width": 1280},
+  "program_commit": "89ab-modified",
   "program_version": "0.1.0",
   "run": {
     "command_line": ["drape", "render", "scenes/flag.json"],

@@ -406,6 +406,22 @@ class Ensembles(Validated):
                 together.step()
                 np.testing.assert_array_equal(positions[1], frame)
 
+    def test_dropped_ones_leave_neither_threads_nor_memory(self):
+        def kept():
+            with open("/proc/self/status", encoding="ascii") as status:
+                lines = dict(line.split(":", 1) for line in status)
+            return int(lines["Threads"]), int(lines["VmRSS"].split()[0])
+
+        for round_ in range(8):
+            ensemble = drape.Ensemble(sheet(), [{}, {"/cloths/0/areal_density": 0.3}], validate=True)
+            ensemble.step()
+            self.assertEqual(ensemble.validation_count, 0)
+            del ensemble
+            if round_ == 3:  # the driver keeps what it made of the first ones
+                threads, kilobytes = kept()
+        self.assertEqual(kept()[0], threads)
+        self.assertLess(kept()[1] - kilobytes, 16384)
+
     def test_what_cannot_be_is_refused(self):
         with self.assertRaisesRegex(drape.Error, "member 1 .* /cloths/0/grid is 8 x 7, not 9 x 7"):
             drape.Ensemble(sheet(), [{}, {"/cloths/0/grid": [8, 7]}])

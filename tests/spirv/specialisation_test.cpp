@@ -8,6 +8,8 @@
 #include <spirv-tools/libspirv.hpp>
 
 #include "spirv_modules.h"
+#include "vulkan/device_requirements.h"
+#include "vulkan/texel_storage.h"
 
 namespace drape {
 namespace {
@@ -22,6 +24,33 @@ bool is_size(std::string_view name) {
            name == vulkan::subgroup_constant || name.ends_with("_each") || name.ends_with("_count");
 }
 
+struct Counts {
+    std::uint32_t images = 0, texels = 0, buffers = 0, writable = 0;
+};
+
+Counts counted(const vulkan::ReflectedModule& module) {
+    Counts counts;
+    for (const vulkan::ReflectedDescriptor& each : module.descriptors) {
+        counts.images += each.kind == vulkan::DescriptorKind::storage_image;
+        counts.texels += each.kind == vulkan::DescriptorKind::texel_buffer;
+        counts.buffers += each.kind == vulkan::DescriptorKind::storage_buffer;
+        counts.writable += each.writable;
+    }
+    return counts;
+}
+
+/// Nothing but texel buffers is another kind then, and there are no more descriptors than the table of requirements
+/// says.
+void expect_stored(const std::string& name, const Counts& made, const Counts& stored) {
+    EXPECT_EQ(stored.texels, 0u) << name;
+    EXPECT_EQ(stored.buffers, made.buffers + made.texels) << name;
+    EXPECT_EQ(stored.images, made.images) << name;
+    EXPECT_EQ(stored.writable, made.writable) << name;
+    EXPECT_LE(made.images + made.texels, vulkan::most_storage_images) << name;
+    EXPECT_LE(made.buffers, vulkan::most_storage_buffers) << name;
+    EXPECT_LE(stored.buffers, vulkan::most_buffers_for_texels) << name;
+}
+
 TEST(Specialisation, IsValidWhateverTheConstants) {
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     std::string trouble;
@@ -33,7 +62,11 @@ TEST(Specialisation, IsValidWhateverTheConstants) {
             std::vector<SpecializationConstant> constants;
             for (const auto& [constant, id] : vulkan::module_interface(name).constants)
                 if (!is_size(constant)) constants.push_back({constant, static_cast<std::uint32_t>(random() % 3)});
-            EXPECT_TRUE(tools.Validate(vulkan::specialised_module(name, constants).words)) << name << ": " << trouble;
+            const vulkan::SpecialisedModule& made = vulkan::specialised_module(name, constants);
+            EXPECT_TRUE(tools.Validate(made.words)) << name << ": " << trouble;
+            const std::vector<std::uint32_t> stored = vulkan::texels_as_storage(made.words);
+            EXPECT_TRUE(tools.Validate(stored)) << name << ", its texels as storage: " << trouble;
+            expect_stored(name, counted(made.reflected), counted(vulkan::reflect(stored, name)));
         }
     }
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <json/json.h>
 
 #include "drape/device.h"
@@ -22,6 +23,8 @@ Json::Value json_device(const DeviceInfo& info) {
     row["uuid"] = info.uuid_text();
     row["usable"] = info.usable;
     if (!info.usable) row["unusable_reason"] = info.unusable_reason;
+    row["without"] = Json::Value(Json::arrayValue);
+    for (const std::string& name : info.lacks) row["without"].append(name);
     return row;
 }
 
@@ -31,9 +34,10 @@ ExitCode list_devices(bool json) {
     std::string text;
     for (const DeviceInfo& info : devices) {
         list.append(json_device(info));
-        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}", info.index, info.name, info.type,
+        text += fmt::format("{}: {} ({})\n   {} {}, Vulkan {}\n   UUID {}\n{}{}", info.index, info.name, info.type,
                             info.driver, info.driver_version, info.api_version, info.uuid_text(),
-                            info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n");
+                            info.usable ? "" : "   cannot be used: " + info.unusable_reason + "\n",
+                            info.lacks.empty() ? "" : fmt::format("   used without {}\n", fmt::join(info.lacks, ", ")));
     }
     print_data(json ? json_text(list) : text);
     if (!devices.empty()) return ExitCode::ok;
@@ -44,10 +48,16 @@ ExitCode list_devices(bool json) {
 }  // namespace
 
 void add_devices(Program& program) {
-    const auto json = std::make_shared<bool>(false);
+    const auto json = std::make_shared<bool>(false), needs = std::make_shared<bool>(false);
+    const auto run = [=] {
+        if (!*needs) return list_devices(*json);
+        print_data(Device::requirements());
+        return ExitCode::ok;
+    };
     CLI::App& command = program.add("devices", "List the Vulkan devices, and why one cannot be used",
-                                    "\nExample:\n  drape devices --json\n", [=] { return list_devices(*json); });
+                                    "\nExample:\n  drape devices --json\n", run);
     add_flag(command, "--json", "As JSON", *json);
+    add_flag(command, "--needs", "Instead: what a device must have, as Markdown", *needs);
 }
 
 }  // namespace drape::cli

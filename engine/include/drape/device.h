@@ -13,7 +13,8 @@ struct DeviceInfo {
     std::string name, type, driver, driver_version, api_version;  ///< type: discrete, integrated, virtual, cpu, other
     std::array<std::uint8_t, 16> uuid{};
     bool usable = true;
-    std::string unusable_reason;  ///< the requirement that it lacks
+    std::string unusable_reason;     ///< the requirement that it lacks
+    std::vector<std::string> lacks;  ///< names of what it is used without (docs/devices.md)
 
     std::string uuid_text() const;
 };
@@ -41,6 +42,8 @@ class Device {
 
     /// Returns every Vulkan device. Throws DeviceError without a Vulkan driver.
     static std::vector<DeviceInfo> list();
+    /// Returns what a device must have or may lack, as Markdown; asks none.
+    static std::string requirements();
 
     const DeviceInfo& info() const;
     std::uint64_t validation_count() const;  ///< number of messages so far

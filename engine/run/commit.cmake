@@ -1,0 +1,17 @@
+# Writes OUTPUT, a C++ string: the commit of the sources in SOURCE, with "-modified" where tracked files differ from it. In
+# an archive of `git archive`, which has no history, commit.txt tells it. The file changes only when its text does.
+set(commit "")
+find_program(GIT git)
+if(GIT AND EXISTS ${SOURCE}/.git)
+  execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse HEAD OUTPUT_VARIABLE commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+  execute_process(COMMAND ${GIT} -C ${SOURCE} status --porcelain --untracked-files=no OUTPUT_VARIABLE changes ERROR_QUIET)
+  if(commit AND NOT changes STREQUAL "")
+    string(APPEND commit "-modified")
+  endif()
+else()
+  file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/commit.txt commit REGEX "^[0-9a-f]+$")
+endif()
+if(commit STREQUAL "")
+  set(commit unknown)
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "\"${commit}\"\n" @ONLY)
