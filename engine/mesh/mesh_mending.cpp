@@ -105,8 +105,13 @@ bool leave_single(std::vector<Triangle>& triangles, Mending& done) {
     return left > 0;
 }
 
-/// Returns the number of each triangle's part.
-std::vector<std::uint32_t> turn_parts(Surface& surface, const Vec3& origin, Mending& done) {
+/// How a surface's parts were turned.
+struct Turning {
+    std::vector<std::uint32_t> part_of;  ///< each triangle's part
+    bool closed;                         ///< no edge is open then
+};
+
+Turning turn_parts(Surface& surface, const Vec3& origin, Mending& done) {
     SurfaceParts parts(surface, origin);
     parts.expect_one_way();
     if (parts.volume() < 0) parts.turn_all();
@@ -114,8 +119,9 @@ std::vector<std::uint32_t> turn_parts(Surface& surface, const Vec3& origin, Mend
     done.turned = parts.turned_triangles();
     done.parts = parts.count();
     done.turned_parts = parts.turned_parts();
+    const bool closed = parts.is_closed();
     parts.apply();
-    return parts.part_of();
+    return {parts.part_of(), closed};
 }
 
 /// Cuts the chain of open edges into rings, none of which comes through a vertex twice.
@@ -281,13 +287,17 @@ Mending mend(Surface& surface, Solid solid, const Vec3& origin, std::vector<std:
     if (solid == Solid::strict) return turn_strictly(surface, origin);
     Mending done;
     done.tolerance = weld_share * bounding_diagonal(surface);
-    if (done.tolerance > 0 && open_edges(surface.triangles) > 0) weld_open(surface, done, places);
-    if (open_edges(surface.triangles) > 0) leave_single(surface.triangles, done);
-    std::vector<std::uint32_t> part_of = turn_parts(surface, origin, done);
+    if (open_edges(surface.triangles) > 0) {
+        if (done.tolerance > 0) weld_open(surface, done, places);
+        if (open_edges(surface.triangles) > 0) leave_single(surface.triangles, done);
+    }
+    Turning turning = turn_parts(surface, origin, done);
     // Where each triangle has one on its back, no two are a part.
-    if (bounds_nothing(surface) && leave_single(surface.triangles, done)) part_of = turn_parts(surface, origin, done);
+    if (bounds_nothing(surface) && leave_single(surface.triangles, done)) turning = turn_parts(surface, origin, done);
+    if (turning.closed) return done;
     close_holes(surface, solid, done);
-    if (!done.rim.empty()) expect_gaps(surface, origin, gap_share / weld_share * done.tolerance, part_of, done.rim);
+    if (!done.rim.empty())
+        expect_gaps(surface, origin, gap_share / weld_share * done.tolerance, turning.part_of, done.rim);
     return done;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,7 +12,6 @@
 
 #include "base/vectors.h"
 #include "mesh/mesh_error.h"
-#include "mesh/surface_edges.h"
 
 namespace drape {
 
@@ -21,19 +21,25 @@ double box_volume(const Vec3& lower, const Vec3& upper) {
     return (upper[0] - lower[0]) * (upper[1] - lower[1]) * (upper[2] - lower[2]);
 }
 
-/// Triangles that have an edge in common with no other one.
-struct Neighbour {
-    std::uint32_t triangle;
-    bool alike;  ///< they go along their common edge in opposite directions, as they should
+/// A triangle's neighbours: at each of its edges at most one that has it in common with no other.
+struct Neighbours {
+    std::array<std::uint32_t, 3> triangles{};
+    std::array<bool, 3> alike{};  ///< they go along their common edge in opposite directions, as they should
+    std::uint32_t count = 0;
+
+    void add(std::uint32_t triangle, bool is_alike) {
+        triangles[count] = triangle;
+        alike[count++] = is_alike;
+    }
 };
 
-std::vector<std::vector<Neighbour>> neighbours(const std::vector<Triangle>& triangles) {
-    std::vector<std::vector<Neighbour>> beside(triangles.size());
-    SurfaceEdges(triangles).each([&](std::span<const SurfaceEdges::Use> uses) {
+std::vector<Neighbours> neighbours(const SurfaceEdges& edges, std::size_t triangles) {
+    std::vector<Neighbours> beside(triangles);
+    edges.each([&](std::span<const SurfaceEdges::Use> uses) {
         if (uses.size() != 2) return;
         const bool alike = uses[0].forward != uses[1].forward;
-        beside[uses[0].triangle].push_back({uses[1].triangle, alike});
-        beside[uses[1].triangle].push_back({uses[0].triangle, alike});
+        beside[uses[0].triangle].add(uses[1].triangle, alike);
+        beside[uses[1].triangle].add(uses[0].triangle, alike);
     });
     return beside;
 }
@@ -86,8 +92,12 @@ double winding_number(const Surface& surface, const std::vector<Triangle>& trian
 }
 
 SurfaceParts::SurfaceParts(Surface& surface, const Vec3& origin)
-    : surface_(surface), origin_(origin), turned_(surface.triangles.size(), -1), part_of_(surface.triangles.size()) {
-    const std::vector<std::vector<Neighbour>> beside = neighbours(surface.triangles);
+    : surface_(surface),
+      origin_(origin),
+      edges_(surface.triangles),
+      turned_(surface.triangles.size(), -1),
+      part_of_(surface.triangles.size()) {
+    const std::vector<Neighbours> beside = neighbours(edges_, surface.triangles.size());
     for (std::uint32_t first = 0; first < turned_.size(); ++first) {
         if (turned_[first] >= 0) continue;
         const auto number = static_cast<std::uint32_t>(parts_.size());
@@ -97,11 +107,12 @@ SurfaceParts::SurfaceParts(Surface& surface, const Vec3& origin)
         for (std::size_t k = 0; k < part.triangles.size(); ++k) {
             const std::uint32_t here = part.triangles[k];
             part_of_[here] = number;
-            for (const auto& [next, alike] : beside[here])
-                if (turned_[next] < 0) {
-                    turned_[next] = static_cast<signed char>(alike ? turned_[here] : 1 - turned_[here]);
-                    part.triangles.push_back(next);
-                }
+            for (std::uint32_t side = 0; side < beside[here].count; ++side) {
+                const std::uint32_t next = beside[here].triangles[side];
+                if (turned_[next] >= 0) continue;
+                turned_[next] = static_cast<signed char>(beside[here].alike[side] ? turned_[here] : 1 - turned_[here]);
+                part.triangles.push_back(next);
+            }
         }
         const auto against = std::ranges::count_if(part.triangles, [&](std::uint32_t k) { return is_turned(k); });
         if (2 * static_cast<std::size_t>(against) > part.triangles.size())
@@ -143,7 +154,7 @@ std::vector<Triangle> SurfaceParts::triangles_of(const Part& part) const {
 void SurfaceParts::expect_one_way() const {
     std::size_t count = 0;
     Vec3 where{};
-    SurfaceEdges(surface_.triangles).each([&](std::span<const SurfaceEdges::Use> uses) {
+    edges_.each([&](std::span<const SurfaceEdges::Use> uses) {
         if (uses.size() != 2) return;
         const bool alike = uses[0].forward != uses[1].forward;
         if (alike == (turned_[uses[0].triangle] == turned_[uses[1].triangle])) return;
@@ -199,6 +210,19 @@ void SurfaceParts::turn_outwards() {
             part.turned = !part.turned;
             part.volume = -part.volume;
         }
+}
+
+bool SurfaceParts::is_closed() const {
+    bool closed = true;
+    edges_.each([&](std::span<const SurfaceEdges::Use> uses) {
+        int net = 0;
+        for (const SurfaceEdges::Use& use : uses) {
+            const bool turned = is_turned(use.triangle) != parts_[part_of_[use.triangle]].turned;
+            net += use.forward != turned ? 1 : -1;
+        }
+        closed = closed && net == 0;
+    });
+    return closed;
 }
 
 std::size_t SurfaceParts::turned_triangles() const { return static_cast<std::size_t>(std::ranges::count(turned_, 1)); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh_mending.h"
+#include "mesh/surface_edges.h"
 
 namespace drape {
 
@@ -36,6 +37,8 @@ class SurfaceParts {
     void turn_all();
     /// Turns parts over that are inside out, unless an odd number of others is around them: those bound cavities.
     void turn_outwards();
+    /// Returns whether, so turned, as many triangles go along each edge one way as the other.
+    bool is_closed() const;
     void apply();
 
     std::size_t count() const { return parts_.size(); }
@@ -61,6 +64,7 @@ class SurfaceParts {
 
     Surface& surface_;
     Vec3 origin_;
+    SurfaceEdges edges_;  ///< of the triangles as they are given
     std::vector<Part> parts_;
     std::vector<signed char> turned_;  ///< of each triangle: 1 if it is turned against how it is given
     std::vector<std::uint32_t> part_of_;
