@@ -62,7 +62,7 @@ std::vector<Vec3> used_vertices(input::MeshData& mesh, const std::string& path, 
                 Vec3& vertex = vertices.emplace_back();
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const double entry = mesh.vertices[corner][axis];
-                    vertex[axis] = scale * double{static_cast<float>(entry)};
+                    vertex[axis] = scale * entry;
                     if (!(std::abs(vertex[axis]) < 1e15))
                         throw MeshError(
                             fmt::format("expected finite coordinates, vertex {} of {} has {}", corner, path, entry));
@@ -74,28 +74,29 @@ std::vector<Vec3> used_vertices(input::MeshData& mesh, const std::string& path, 
 }
 
 std::shared_ptr<const MeshShape> read(Read* read_file, const std::string& path, double scale,
-                                      std::optional<double> shell) try {
+                                      std::optional<double> shell, Solid solid) try {
     input::MeshData mesh = read_file(path);
     if (mesh.triangles.empty()) throw MeshError(fmt::format("expected triangles, {} has none", path));
     const std::vector<Vec3> vertices = used_vertices(mesh, path, scale);
-    return std::make_shared<const MeshShape>(vertices, std::move(mesh.triangles), shell);
+    return std::make_shared<const MeshShape>(vertices, std::move(mesh.triangles), shell, nullptr, solid);
 } catch (const OutputError& error) {
     throw MeshError(error.what());
 }
 
 }  // namespace
 
-std::shared_ptr<const MeshShape> read_mesh(const std::string& path, double scale, std::optional<double> shell) {
+std::shared_ptr<const MeshShape> read_mesh(const std::string& path, double scale, std::optional<double> shell,
+                                           Solid solid) {
     Read* const read_file = reader_of(path);
-    using Key = std::tuple<std::string, fs::file_time_type, std::uintmax_t, double, double>;
+    using Key = std::tuple<std::string, fs::file_time_type, std::uintmax_t, double, double, Solid>;
     static std::mutex mutex;
     static std::map<Key, std::weak_ptr<const MeshShape>> kept;
-    const Key key{path, fs::last_write_time(path), fs::file_size(path), scale, shell.value_or(0)};
+    const Key key{path, fs::last_write_time(path), fs::file_size(path), scale, shell.value_or(0), solid};
     const std::lock_guard lock(mutex);
     std::erase_if(kept, [](const auto& each) { return each.second.expired(); });
     std::weak_ptr<const MeshShape>& known = kept[key];
     std::shared_ptr<const MeshShape> mesh = known.lock();
-    if (!mesh) known = mesh = read(read_file, path, scale, shell);
+    if (!mesh) known = mesh = read(read_file, path, scale, shell, solid);
     return mesh;
 }
 

@@ -18,8 +18,8 @@ constexpr std::size_t kept_forms = 4;
 constexpr std::size_t no_vertex = std::numeric_limits<std::size_t>::max();
 
 /// Returns the poses of a form's own vertices, each of which is one or several of those given.
-std::vector<float> welded(const std::vector<std::uint32_t>& places, std::size_t vertices,
-                          const std::vector<float>& xyz) {
+std::vector<float> welded(const std::vector<std::uint32_t>& places, std::size_t vertices, const std::vector<float>& xyz,
+                          double tolerance) {
     const std::size_t points = places.size(), count = points == 0 ? 0 : xyz.size() / (3 * points);
     std::vector<std::size_t> first(vertices, no_vertex);
     for (std::size_t point = points; point-- > 0;) first[places[point]] = point;
@@ -29,12 +29,12 @@ std::vector<float> welded(const std::vector<std::uint32_t>& places, std::size_t 
         for (std::size_t point = 0; point < points; ++point) {
             const std::size_t one = first[places[point]];
             for (std::size_t k = 0; k < 3; ++k) {
-                if (from[3 * point + k] != from[3 * one + k])
+                if (!(std::abs(from[3 * point + k] - from[3 * one + k]) <= tolerance))
                     throw MeshError(
                         fmt::format("expected vertices in one place of the mesh to stay together, {} and {} "
                                     "part in pose {}",
                                     one, point, pose));
-                result[3 * (vertices * pose + places[point]) + k] = from[3 * point + k];
+                result[3 * (vertices * pose + places[point]) + k] = from[3 * one + k];
             }
         }
     }
@@ -45,7 +45,8 @@ std::vector<float> welded(const std::vector<std::uint32_t>& places, std::size_t 
 
 MeshSequence::MeshSequence(const MeshShape& form, const std::vector<std::uint32_t>& places,
                            const std::vector<float>& xyz)
-    : vertices_(form.vertices().size()), xyz_(welded(places, vertices_, xyz)) {
+    : vertices_(form.vertices().size()),
+      xyz_(welded(places, vertices_, xyz, form.mending().welded > 0 ? form.mending().tolerance : 0)) {
     count_ = xyz_.size() / (3 * vertices_);
     if (count_ == 0) throw MeshError("expected a pose, got none");
     constexpr double infinity = std::numeric_limits<double>::infinity();

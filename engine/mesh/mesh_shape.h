@@ -6,19 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_mending.h"
 #include "mesh/triangle_tree.h"
 
 namespace drape {
 
-/// A closed surface bounds a solid body. An open surface is a shell: everything within half its thickness.
+/// A surface bounds a solid body, or is a shell: everything within half its thickness.
 class MeshShape {
   public:
-    /// Corners in the same place become one, triangles without an area go. `vertices` are in metres. A closed surface
-    /// whose triangles do not turn one way is turned so, and one that is inside out is turned over. Throws MeshError
-    /// where that is impossible, where nothing is left, and for an open surface without `shell`, its thickness in m.
-    /// `places`: becomes the number of the shape's vertex at each one given.
+    /// Corners in the same place become one, triangles without an area go. `vertices` are in metres. Without `shell`,
+    /// a thickness in m, the surface is made a body's (mesh_mending.h). Throws MeshError where that is impossible,
+    /// where nothing is left, and where what stays open leaves it unclear what is inside: where the winding number is
+    /// between 1/4 and 3/4 at more than a twentieth as many points as are inside. `places`: becomes the number of the
+    /// shape's vertex at each one given.
     MeshShape(const std::vector<Vec3>& vertices, std::vector<Triangle> triangles, std::optional<double> shell,
-              std::vector<std::uint32_t>* places = nullptr);
+              std::vector<std::uint32_t>* places = nullptr, Solid solid = Solid::mended);
     /// The same surface with its vertices elsewhere, in the frame of those that `form` was made of, m. `lower` and
     /// `upper`: corners of a box that takes the place of its bounding box.
     MeshShape(const MeshShape& form, std::vector<Vec3> vertices, const Vec3& lower, const Vec3& upper);
@@ -33,7 +35,9 @@ class MeshShape {
     const Vec3& middle() const { return middle_; }
     /// Returns half of the bounding box's edges, m, with half of a shell's thickness.
     const Vec3& half_extents() const { return half_extents_; }
-    double shell() const { return shell_; }  ///< m; 0: the surface is closed
+    double shell() const { return shell_; }  ///< m; 0: the surface bounds a body
+    /// Returns what was done to make it a body's.
+    const Mending& mending() const { return mending_; }
     /// Returns how far the surface is from the innermost of some 10,000 points, m: half of what the body is thick.
     double inner_radius() const { return inner_radius_; }
 
@@ -42,22 +46,29 @@ class MeshShape {
     /// Returns the distance at points on a line along x, from `first` on by `step`, m. Beyond `exact_within` it may be
     /// up to 2 % too large.
     void distances(const Vec3& first, double step, double exact_within, std::vector<double>& row) const;
-    /// Returns which of so many points of a line along x are inside a closed surface; none of a shell.
+    /// Returns which of so many points of a line along x are inside: the surface winds around them, by more than a half
+    /// if edges stayed open. None of a shell's are.
     std::vector<bool> inside(const Vec3& first, double step, std::size_t count) const;
     const TriangleTree& tree() const { return *tree_; }
-    /// Returns the volume within a closed surface, m^3; negative if the surface is inside out.
+    /// Returns how often the surface winds around so many points of a line along x: the generalised winding number.
+    std::vector<double> winding(const Vec3& first, double step, std::size_t count) const;
+    /// Returns the volume within the surface, m^3; negative if it is inside out.
     double volume() const;
 
   private:
     void weld(const std::vector<Vec3>& given, std::vector<std::uint32_t>* places);
     void center();
-    void close_or_thicken(std::optional<double> shell);
+    void make_body(Solid solid, std::vector<std::uint32_t>& places);
+    void expect_an_inside() const;
     void find_inner_radius();
+    template <class See>
+    void at_inner_points(const See& see) const;
 
     std::vector<Vec3> vertices_;
     std::vector<Triangle> triangles_;
     Vec3 middle_{}, half_extents_{};
     double shell_ = 0, inner_radius_ = 0;
+    Mending mending_;
     std::optional<TriangleTree> tree_;
 };
 

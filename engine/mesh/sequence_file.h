@@ -13,6 +13,6 @@ namespace drape {
 /// metres. The same one, asked for again while it is in use and the files are as they were, is not read again. Throws
 /// MeshError.
 std::shared_ptr<const MeshSequence> read_sequence(const std::string& file, const std::string& poses, double scale,
-                                                  std::optional<double> shell);
+                                                  std::optional<double> shell, Solid solid = Solid::mended);
 
 }  // namespace drape

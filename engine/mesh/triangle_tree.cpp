@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "base/vectors.h"
@@ -70,6 +71,16 @@ glsl::vec4 rounded(const Vec3& corner, int side) {
 }
 
 }  // namespace
+
+double strip_winding(const Vec3& a, const Vec3& b, const Vec3& at) {
+    const Vec3 to_a = minus(a, at), to_b = minus(b, at);
+    const double la = length(to_a), lb = length(to_b);
+    if (!(la > 0) || !(lb > 0)) return 0;
+    // The formula of van Oosterom and Strackee (1983) with the third corner at infinity.
+    const double spanned = std::abs(to_a[1] * to_b[2] - to_a[2] * to_b[1]);
+    const double across = la * lb + dot(to_a, to_b) + to_a[0] * lb + to_b[0] * la;
+    return side_of(a, b, at[1], at[2]) * std::atan2(spanned, across) / (2 * std::numbers::pi);
+}
 
 struct TriangleTree::Item {
     std::uint32_t triangle;
@@ -195,7 +206,7 @@ void TriangleTree::passages(double y, double z, std::vector<LinePassage>& found)
             const double nx = ab[1] * ac[2] - ab[2] * ac[1];
             if (nx == 0) continue;  // seen from its edge
             const double ny = ab[2] * ac[0] - ab[0] * ac[2], nz = ab[0] * ac[1] - ab[1] * ac[0];
-            found.push_back({a[0] - (ny * (y - a[1]) + nz * (z - a[2])) / nx, nx < 0 ? 1 : -1});
+            found.push_back({a[0] - (ny * (y - a[1]) + nz * (z - a[2])) / nx, nx < 0 ? 1 : -1, order_[k]});
         }
         if (node.count > 0) continue;
         open[count++] = index + 1;

@@ -19,7 +19,13 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct LinePassage {
     double x;  ///< m
     int turn;  ///< 1: into what the surface bounds, as x grows; -1: out of it
+    std::uint32_t triangle;
 };
+
+/// Returns the share of all directions in which a strip is seen from a point: the strip from the edge from `a` to `b`
+/// along x to infinity, positive where the triangle of a, b and that end turns counter-clockwise as seen from the
+/// outside. It jumps by 1 where the point passes through the strip, by the arithmetic of `passages`.
+double strip_winding(const Vec3& a, const Vec3& b, const Vec3& at);
 
 /// The vertices and triangles must outlive it.
 class TriangleTree {

@@ -76,16 +76,23 @@ inline const Object<Collider> capsule{
 
 inline const Object<Collider> mesh{
     "mesh",
-    "A triangle mesh from a file, OBJ, PLY, STL or glTF 2 (uncompressed), of at most 4 million triangles and 256 MiB, "
-    "in single precision: the solid body that a closed surface bounds, parts that overlap being one, or a shell. "
-    "Contact knows its distance at the points of a "
-    "lattice and interpolates between them. Its centre is the middle of its bounding box.",
+    "A triangle mesh from a file, OBJ, PLY, STL or glTF 2 (uncompressed), of at most 4 million triangles and 256 "
+    "MiB: the solid body that its surface bounds, parts that overlap being one, or a shell. At most one of shell "
+    "and solid. Contact knows its distance at the points of a lattice and interpolates between them. Its centre is "
+    "the middle of its bounding box.",
     keys_of<Mesh>({
         {"file", &Mesh::file, text(), "A relative name is looked for as a cloth's start is.", "the name of a file"},
         {"scale", &Mesh::scale, number(positive), "Metres per unit of the file."},
         {"position", &Mesh::position, vec3, "Metres: where the file's origin is."},
         {"shell", &Mesh::shell, optional(number(positive)),
          "Metres: thickness of a surface that is not closed, half of it on either side."},
+        {"solid", &Mesh::solid, choice<Solid>(solid_spellings),
+         "How the surface becomes a body's. mended: vertices at open edges that lie within 1e-6 of the bounding "
+         "box's diagonal of each other are welded, triangles of a part turn the way that most of them do, parts "
+         "turn outwards, those in a cavity inwards, and holes of at most 5 % of the surface's area are closed; a "
+         "warning says what was done. Larger ones are refused, but gaps of up to 1 % of the diagonal between parts "
+         "may stay: inside is what the surface winds around by more than a half. filled: likewise, and holes of any "
+         "size are closed. strict: a surface that is not closed is refused."},
         {"spacing", &Mesh::spacing, optional(number(positive)),
          "Metres between the points of the lattice. Absent: half of the least distance of particles, or of the shell's "
          "thickness, and more where that needs over 2 million points, or over 262144 of a mesh that deforms."},
@@ -101,7 +108,7 @@ inline const Object<Collider> mesh{
          "Seconds: when the first pose is. It holds before, and the last one behind."},
         {"loop", &Mesh::loop, boolean(), "The first pose follows the last one, before the start too."},
     }),
-    check_mesh};
+    check_mesh, R"("not": {"required": ["shell", "solid"]})"};
 
 using Colliders = std::vector<Collider>;
 

@@ -19,10 +19,10 @@ void warn_of_crossings(const SceneNode& file, const MeshShape& shape) {
         surface.indices.insert(surface.indices.end(), triangle.begin(), triangle.end());
     const std::size_t pairs = TriangleCrossings({surface}).count();
     if (pairs > 0)
-        file.warn(
-            fmt::format("the surface crosses itself ({} pairs of triangles): parts that overlap are one body, and "
-                        "parts that are inside out count as outside; a surface whose parts were united has none",
-                        pairs));
+        file.warn(fmt::format(
+            "the surface crosses itself ({} pairs of triangles): parts that overlap are one body; a surface whose "
+            "parts were united has none",
+            pairs));
 }
 
 }  // namespace
@@ -42,7 +42,9 @@ bool check_mesh(const Members& members, Collider& collider) {
     if (says("frames_per_second", mesh.frames_per_second != still.frames_per_second) ||
         says("frames_start", mesh.frames_start != still.frames_start) || says("loop", mesh.loop != still.loop))
         return false;
-    if (!members.fit({"file", "scale", "shell", "frames", "frames_per_second", "frames_start", "loop"})) return false;
+    if (members["shell"] && members["solid"]) return members.object().fail("expected shell or solid, got both");
+    if (!members.fit({"file", "scale", "shell", "solid", "frames", "frames_per_second", "frames_start", "loop"}))
+        return false;
     mesh.file = members["file"].file(mesh.file).string();
     if (frames) mesh.frames = frames.file(mesh.frames).string();
     try {
@@ -50,6 +52,8 @@ bool check_mesh(const Members& members, Collider& collider) {
     } catch (const Error& error) {
         return (frames ? frames : members["file"]).fail(error.what());
     }
+    if (const std::string mended = mesh.shape->mending().text(); !mended.empty())
+        members["file"].warn(fmt::format("the mesh was mended to be a body: {}", mended));
     warn_of_crossings(members["file"], *mesh.shape);
     return true;
 }

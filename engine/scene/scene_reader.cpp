@@ -108,8 +108,9 @@ SceneResult read_scene(const std::string& path, std::span<const std::string> ove
 }
 
 void read_file(Mesh& mesh) {
-    mesh.sequence = mesh.frames.empty() ? nullptr : read_sequence(mesh.file, mesh.frames, mesh.scale, mesh.shell);
-    mesh.shape = mesh.sequence ? mesh.sequence->form() : read_mesh(mesh.file, mesh.scale, mesh.shell);
+    mesh.sequence =
+        mesh.frames.empty() ? nullptr : read_sequence(mesh.file, mesh.frames, mesh.scale, mesh.shell, mesh.solid);
+    mesh.shape = mesh.sequence ? mesh.sequence->form() : read_mesh(mesh.file, mesh.scale, mesh.shell, mesh.solid);
 }
 std::string scene_folder(const std::string& path) {
     std::error_code error;

@@ -41,9 +41,10 @@ void at_points(double half, const See& see) {
     for (int k = 0; k < 3000; ++k) see(Vec3{place(random), place(random), place(random)});
 }
 
-std::string refusal(const Triangles& mesh, std::optional<double> shell = {}) {
+/// Says why a strict body is refused.
+std::string refusal(const Triangles& mesh) {
     try {
-        shape_of(mesh, shell);
+        MeshShape(mesh.vertices, mesh.triangles, std::nullopt, nullptr, Solid::strict);
     } catch (const MeshError& error) {
         return error.what();
     }

@@ -55,7 +55,8 @@ inline constexpr const char* full_scene =
     R"json(/tests/scene/box.obj", "scale": 0.5, "position": [1, 2, 3], "shell": 0.25, "spacing": 0.125,
                 "frames": ")json" DRAPE_SOURCE_DIR
     R"json(/tests/scene/box_pose_#.obj", "frames_per_second": 12.5, "frames_start": 0.25, "loop": true,
-                "friction": 0.8, "rotate": [2, 4, 6], "color": [0.6, 0.1, 0.2], "path": [{"t": 5}]}]},
+                "friction": 0.8, "rotate": [2, 4, 6], "color": [0.6, 0.1, 0.2], "path": [{"t": 5}]},
+               {"file": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/box.obj", "solid": "strict"}]},
   "overlap": "refuse",
   "forces": true,
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],

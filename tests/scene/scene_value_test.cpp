@@ -162,6 +162,8 @@ TEST(SceneValues, CollidersOfTheFullScene) {
     read_file(mesh);
     ASSERT_TRUE(mesh.sequence);
     EXPECT_EQ(mesh.sequence->count(), 2u);
+    Mesh strict{.file = DRAPE_SOURCE_DIR "/tests/scene/box.obj", .solid = Solid::strict};
+    read_file(strict);
     const auto collider = [](ColliderShape shape, double friction, Vec3 rotate, MotionKey key, double red) {
         return Collider{shape, friction, rotate, {{key}}, {red, 0.1, 0.2}};
     };
@@ -172,7 +174,8 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4),
         collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
         {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}},
-        collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6)};
+        collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6),
+        {strict}};
     EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);
 }
 
@@ -236,6 +239,50 @@ TEST(SceneValues, AMeshThatCrossesItselfIsWarnedOf) {
                 ::testing::StartsWith("s:1:66: /colliders/meshes/0/file: the surface crosses itself ("));
     EXPECT_TRUE(read_scene_text(two_bodies(1.25, ""), "s").warnings.empty());
     EXPECT_TRUE(read_scene_text(two_bodies(0.25, ", \"shell\": 0.1"), "s").warnings.empty());
+}
+
+TEST(SceneValues, WhatWasMendedOfAMeshIsTold) {
+    // A box of 1 m x 2 m x 3 m without a triangle of 1 m x 2 m: a hole of 1 of 21 m^2, or of 1.5 m^2 of another face.
+    const std::string path = ::testing::TempDir() + "open_box.obj";
+    const auto scene = [&](std::size_t left_out, const std::string& more) {
+        std::ofstream file(path);
+        for (const double z : {0, 3})
+            for (const double y : {0, 2})
+                for (const double x : {0, 1}) file << fmt::format("v {} {} {}\n", x, y, z);
+        const std::array<std::array<int, 3>, 12> faces{{{1, 3, 4},
+                                                        {1, 4, 2},
+                                                        {5, 6, 8},
+                                                        {5, 8, 7},
+                                                        {1, 5, 7},
+                                                        {1, 7, 3},
+                                                        {2, 4, 8},
+                                                        {2, 8, 6},
+                                                        {1, 2, 6},
+                                                        {1, 6, 5},
+                                                        {3, 7, 8},
+                                                        {3, 8, 4}}};
+        for (std::size_t k = 0; k < faces.size(); ++k)
+            if (k != left_out) file << fmt::format("f {} {} {}\n", faces[k][0], faces[k][1], faces[k][2]);
+        file.close();
+        return read_scene_text(
+            R"({"cloths": [{"grid": [4, 3]}], "colliders": {"meshes": [{"file": ")" + path + "\"" + more + "}]}}", "s");
+    };
+    const SceneResult small = scene(0, "");
+    ASSERT_EQ(small.warnings.size(), 1u);
+    EXPECT_EQ(small.warnings[0].text(),
+              "s:1:66: /colliders/meshes/0/file: the mesh was mended to be a body: 1 hole closed (3 edges, 1 m^2)");
+    const SceneResult large = scene(9, "");
+    ASSERT_EQ(large.errors.size(), 1u);
+    EXPECT_THAT(
+        large.errors[0].text(),
+        ::testing::StartsWith("s:1:66: /colliders/meshes/0/file: expected a closed surface, got one with 3 edges "
+                              "of one triangle alone, one at ("));
+    EXPECT_EQ(scene(9, R"(, "solid": "filled")").warnings.size(), 1u);
+    EXPECT_EQ(scene(0, R"(, "solid": "strict")").errors.size(), 1u);
+    EXPECT_TRUE(scene(12, R"(, "solid": "strict")").warnings.empty());
+    const SceneResult both = scene(9, R"(, "solid": "filled", "shell": 0.01)");
+    ASSERT_EQ(both.errors.size(), 1u);
+    EXPECT_THAT(both.errors[0].text(), ::testing::HasSubstr("expected shell or solid, got both"));
 }
 
 TEST(SceneValues, EveryEdgeAndCorner) {

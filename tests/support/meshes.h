@@ -125,10 +125,10 @@ inline void add(Triangles& mesh, const Triangles& other) {
 }
 
 /// Writes an OBJ file into the folder for temporary files and returns its name.
-inline std::string obj_file(const Triangles& mesh, const std::string& name) {
+inline std::string obj_file(const Triangles& mesh, const std::string& name, int digits = 9) {
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
     std::ofstream file(path);
-    file.precision(9);
+    file.precision(digits);
     for (const Vec3& v : mesh.vertices) file << "v " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';
     for (const auto& [a, b, c] : mesh.triangles) file << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
     return path.string();

@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "drape/solid.h"
 #include "drape/solver_method.h"
 #include "drape/vec3.h"
 
@@ -282,6 +283,9 @@ struct Capsule {
     bool operator==(const Capsule&) const = default;
 };
 
+inline constexpr Spelling<Solid> solid_spellings[] = {
+    {"mended", Solid::mended}, {"filled", Solid::filled}, {"strict", Solid::strict}};
+
 /// A triangle mesh from a file: a solid body, or a shell, which may deform. The scene reader reads the files; whoever
 /// fills this otherwise calls `read_file` (drape/scene_reader.h).
 struct Mesh {
@@ -298,6 +302,7 @@ struct Mesh {
     double frames_per_second = 24;             ///< poses a second; between two the vertices move along straight lines
     double frames_start = 0;                   ///< s: when the first pose is; before it, that holds
     bool loop = false;                         ///< the first pose follows the last one; else the last one holds
+    Solid solid = Solid::mended;               ///< how it becomes a body without `shell`
     std::shared_ptr<const MeshShape> shape{};  ///< what was read; of one that deforms, a box holds all its poses
     std::shared_ptr<const MeshSequence> sequence{};  ///< the poses; null where there are none
     double grown = 0;                                ///< m: contact takes the surface to be so far outside of it
