@@ -11,6 +11,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;    // the positions lack the last substep's displacement
 layout(constant_id = 1) const bool weighs = false;     // each wind is followed by the change of gravity since the start
+layout(constant_id = 2) const int weather_vectors = 1;  // of a substep, in `wind`
 layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation processes
 layout(constant_id = 21) const int strip_columns = 1;  // columns that it processes, most_columns at most
 const int most_columns = 2;
@@ -80,7 +81,7 @@ void store_row(Row above, Row row, Row below, int y) {
 }
 
 void main() {
-    int inputs = (push.first + given.substep) * (weighs ? 2 : 1);
+    int inputs = (push.first + given.substep) * weather_vectors;
     wind_velocity = wind[inputs].xyz;  // before anything branches (docs/devices.md)
     if (weighs) more_gravity = wind[inputs + 1].xyz;
     if (books) per_newton = units_per_newton(impulse_units(), push.inverse_step, push.inner_mass);

@@ -155,6 +155,8 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end, doub
 
 }  // namespace
 
+std::size_t weather_vectors(const SimulationModel& model) { return model.windy ? (model.weighs ? 2 : 1) : 0; }
+
 std::size_t collider_record_count(const SimulationModel& model) {
     return model.kept_colliders.size() * model.scene.colliders.size() *
            (model.colliders_move ? model.most_substeps() : 1);

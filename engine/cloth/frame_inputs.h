@@ -15,6 +15,8 @@ namespace drape {
 /// Returns the motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
 RigidTransform pin_transform(const DynamicPin& pin, double time);
 
+/// Returns the number of vectors that FrameInputs::wind has for a substep of one scene.
+std::size_t weather_vectors(const SimulationModel& model);
 /// Returns the number of collider records in a frame: one for each entry of every list
 /// (SimulationModel::kept_colliders), or one for each substep if any collider is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);

@@ -199,9 +199,8 @@ double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
     const Start& start = starts_[index];
     const double time = frame / model_.scene.time.fps, gravity = length(strongest_gravity(model_.scene));
     const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
-    const double wind = length(strongest_wind(model_.scene.wind)) + std::abs(model_.scene.wind.gust.amplitude);
     const double strained = std::min(drive(frame, index).travel / std::min(cloth.size[0], cloth.size[1]), 1.0);
-    return model_.cloths[index].start_speed + fall + (model_.windy ? wind : 0) + start.released + pushed() +
+    return model_.cloths[index].start_speed + fall + fastest_wind(model_.scene.wind) + start.released + pushed() +
            drive(frame, index).speed + strained * start.wave + start.recoil;
 }
 

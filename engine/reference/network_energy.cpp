@@ -90,6 +90,11 @@ std::vector<Vec3> SpringNetwork::gradient(std::span<const Vec3> position) const 
 
 Vec3 SpringNetwork::more_gravity(double time) const { return value_at(gravity_keys, gravity, time) - gravity; }
 
+void SpringNetwork::add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
+                                     std::span<Vec3> force) const {
+    add_wind_force(position, velocity, time, force);
+}
+
 void SpringNetwork::add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                                    std::span<Vec3> force) const {
     if (!wind.blows()) return;

@@ -116,6 +116,11 @@ struct SpringNetwork {
     std::vector<Vec3> gradient(std::span<const Vec3> position) const;
     /// Returns what gravity is more at a time (s) than at the start, m/s^2.
     Vec3 more_gravity(double time) const;
+    /// Returns whether anything but gravity acts from outside.
+    bool has_outer_forces() const { return wind.blows(); }
+    /// Adds what acts on the particles from outside, N, beside gravity: wind.
+    void add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
+                          std::span<Vec3> force) const;
     /// Adds the wind's force (N) by the scene's formula per quarter of a cell, to its particle.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;

@@ -4,6 +4,7 @@
 #include "cloth/cyclic_lines.h"
 #include "cloth/directions.h"
 #include "cloth/forces.h"
+#include "cloth/frame_inputs.h"
 #include "cloth/kernel_steps.h"
 #include "solver/step_size.h"
 
@@ -111,6 +112,7 @@ constexpr ConstantRow constant_rows[] = {
     {"supporting", [](Place p) { return p.step.supporting || p.step.after_impulses ? 1u : 0u; }},
     {"tensions", known_tensions},
     {"turns", [](Place p) { return p.step.turns ? 1u : 0u; }},
+    {"weather_vectors", [](Place p) { return static_cast<std::uint32_t>(weather_vectors(p.model)); }},
     {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
     {"wide", [](Place p) { return p.device.wide_atomics() ? 1u : 0u; }},
     {"windy", [](Place p) { return has(p, Field::wind_force) ? 1u : 0u; }},

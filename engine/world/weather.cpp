@@ -1,6 +1,7 @@
 #include "world/weather.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/vectors.h"
@@ -68,6 +69,18 @@ bool has_weather(const SceneDescription& scene) { return scene.wind.blows() || g
 
 Vec3 strongest_gravity(const SceneDescription& scene) { return strongest(scene.gravity_keys, scene.gravity); }
 
-Vec3 strongest_wind(const Wind& wind) { return strongest(wind.keys, wind.velocity); }
+double fastest_steady_wind(const Wind& wind) {
+    const Vec3 fastest = strongest(wind.keys, wind.velocity);
+    return std::hypot(fastest[0], fastest[1], fastest[2]);
+}
+
+double fastest_wind(const Wind& wind) {
+    return wind.blows() ? fastest_steady_wind(wind) + std::abs(wind.gust.amplitude) : 0;
+}
+
+bool weather_stays(const SceneDescription& scene, double from, double to) {
+    if (has_weather(scene) && scene.wind.gust.amplitude != 0) return false;
+    return is_steady(scene.wind.keys, from, to) && is_steady(scene.gravity_keys, from, to);
+}
 
 }  // namespace drape

@@ -23,9 +23,12 @@ bool has_weather(const SceneDescription& scene);
 /// Returns the factor of a cloth's stiffness in a frame: linear between two keys, at the frame's middle; in frame 0,
 /// which has no length, at its time.
 double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame);
-/// Returns gravity, m/s^2, at its strongest; the other function, the velocity of the wind without gusts, m/s, at its
-/// largest.
+/// Returns gravity, m/s^2, at its strongest.
 Vec3 strongest_gravity(const SceneDescription& scene);
-Vec3 strongest_wind(const Wind& wind);
+/// Returns the speed, m/s, of the wind at its fastest; with gusts and without.
+double fastest_wind(const Wind& wind);
+double fastest_steady_wind(const Wind& wind);
+/// Returns whether all of the weather is constant between two times, s.
+bool weather_stays(const SceneDescription& scene, double from, double to);
 
 }  // namespace drape

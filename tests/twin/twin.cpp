@@ -140,7 +140,7 @@ void run_stiffness(const TwinPlace& where) {
 
 void run_wind(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const std::size_t own = step.substep * std::size_t{scene.weighs ? 2u : 1u};
+    const std::size_t own = step.substep * weather_vectors(scene);
     const vec3 velocity = xyz(inputs.wind[own]);
     const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
