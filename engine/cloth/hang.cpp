@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "cloth/loads.h"
 #include "world/gust.h"
 #include "world/weather.h"
 
@@ -83,11 +84,14 @@ double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, doub
 }  // namespace
 
 double most_weather_acceleration(const SceneDescription& scene, const Cloth& cloth) {
-    return length(strongest_gravity(scene)) + most_wind_acceleration(scene, cloth, fastest_wind(scene.wind));
+    // What pulls at a corner strains the springs there as four times its share of the cloth's weight would.
+    return length(strongest_gravity(scene)) + most_wind_acceleration(scene, cloth, fastest_wind(scene.wind)) +
+           4 * most_load_acceleration(cloth);
 }
 
 double weather_acceleration(const SceneDescription& scene, const Cloth& cloth, double time) {
-    return length(gravity_at(scene, time)) + wind_acceleration(scene, cloth, length(wind_velocity(scene.wind, time)));
+    return length(gravity_at(scene, time)) + wind_acceleration(scene, cloth, length(wind_velocity(scene.wind, time))) +
+           load_acceleration(cloth, time);
 }
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
@@ -96,7 +100,8 @@ Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
     hang.spacing = least_spacing(cloth);
     const Vec3 gravity = strongest_gravity(scene);
     hang.gravity = std::hypot(gravity[0], gravity[1], gravity[2]);
-    hang.acceleration = hang.gravity + wind_acceleration(scene, cloth, fastest_wind(scene.wind));
+    hang.acceleration =
+        hang.gravity + wind_acceleration(scene, cloth, fastest_wind(scene.wind)) + most_load_acceleration(cloth);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && !scene.comes_apart();
     hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && !scene.comes_apart();

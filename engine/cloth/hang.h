@@ -17,7 +17,8 @@ struct Hang {
     std::size_t particle_count;
 };
 
-/// Returns the largest acceleration, m/s^2, by all weather: gravity, and the wind's pressure on a plate that faces it.
+/// Returns the largest acceleration, m/s^2, by all weather: gravity, loads, and the wind's pressure on a
+/// plate that faces it.
 double most_weather_acceleration(const SceneDescription& scene, const Cloth& cloth);
 
 /// Returns the acceleration, m/s^2, by which the weather of a time (s) stretches a cloth.

@@ -91,6 +91,7 @@ constexpr ConstantRow constant_rows[] = {
     {"impulse_rows", [](Place p) { return impulse_row_count(p.model.scene); }},
     {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
+    {"load_depth", [](Place p) { return p.cloth->model->load_depth; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
     {"looks_back", [](Place p) { return p.step.looks_back ? 1u : 0u; }},

@@ -22,7 +22,7 @@ TEST(Weather, GoesStraightFromKeyToKeyAndRestsOutside) {
 }
 
 TEST(Weather, IsSteadyOnlyWhereNoKeyChangesIt) {
-    EXPECT_TRUE(is_steady({}, 0, 9));
+    EXPECT_TRUE(is_steady(std::vector<VectorKey>{}, 0, 9));
     EXPECT_TRUE(is_steady(keys, -1, 1));
     EXPECT_FALSE(is_steady(keys, 0, 1.1));
     EXPECT_TRUE(is_steady(keys, 4, 9));
