@@ -1,7 +1,8 @@
 // This pass finds the force of the air on each particle, which is that on its up to four quarters of cells. An
 // invocation goes down some adjacent columns of particles and keeps the rows above and below, so that most particles
 // are loaded once. Where `masked`, an image says which quarters and neighbours a particle has (holes, cuts). Where
-// gravity changes, what it is more than at the start is a force here, too. Where it `books`, it sums the air's forces.
+// gravity changes, what it is more than at the start is a force here, too, and so are the loads on a particle, up to
+// `load_depth`. Where it `books`, it sums the forces of air and loads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -11,6 +12,7 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;    // the positions lack the last substep's displacement
 layout(constant_id = 1) const bool weighs = false;     // each wind is followed by the change of gravity since the start
+layout(constant_id = 2) const int weather_vectors = 1;  // of a substep, in `wind`
 layout(constant_id = 20) const int strip_rows = 1;     // rows that an invocation processes
 layout(constant_id = 21) const int strip_columns = 1;  // columns that it processes, most_columns at most
 const int most_columns = 2;
@@ -26,6 +28,8 @@ layout(constant_id = 28) const bool books = false;
 layout(set = 0, binding = 3, std430) readonly buffer Wind { vec4 wind[]; };
 layout(constant_id = 24) const bool masked = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D air;
+layout(constant_id = 3) const int load_depth = 0;  // texels of a particle in `loads`
+layout(set = 0, binding = 6, rgba32f) uniform readonly image2D loads;
 
 struct Member {
     vec3 position, displacement;
@@ -39,6 +43,8 @@ vec3 wind_velocity, more_gravity;
 int first_column;
 float per_newton;                   // units of impulse of a newton
 ImpulseSum by_air = no_impulse();  // on the invocation's particles
+ImpulseSum by_loads = no_impulse();
+int first_load;  // in `wind`, of the cloth
 
 /// Loads a row; past the grid's border, the row on the border again.
 Row load_row(int y) {
@@ -58,6 +64,17 @@ vec3 edge_between(Member from, Member to) {
     return edge;
 }
 
+/// Returns what all its loads give to a particle.
+vec3 loads_on(ivec2 texel, vec3 area) {
+    vec3 sum = empty_sum();
+    for (int k = 0; k < load_depth; ++k) {
+        vec4 share = LOAD(loads, ivec2(texel.x * load_depth + k, texel.y));
+        if (share.x < 0.0f) break;
+        sum = add_load(sum, wind[first_load + int(share.x)], share, area);
+    }
+    return sum;
+}
+
 void store_row(Row above, Row row, Row below, int y) {
     for (int c = 0; c < strip_columns; ++c) {
         ivec2 texel = ivec2(first_column + c, y);
@@ -67,6 +84,7 @@ void store_row(Row above, Row row, Row below, int y) {
                                   edge_between(own, above.members[c + 1]), edge_between(own, below.members[c + 1]));
         vec3 relative = relative_wind(wind_velocity, own.displacement, push.inverse_step);
         uint felt = border_air(texel, push.grid);
+        AirEdges all_edges = edges;
         if (masked) {
             felt = LOAD(air, texel).x;
             edges = own_edges(edges, felt, relative, push.spacing);
@@ -74,14 +92,20 @@ void store_row(Row above, Row row, Row below, int y) {
         WindForce sum = particle_wind_force(edges, felt, relative, push.inverse_step, push.drag_coefficient,
                                             push.lift_coefficient, push.spacing);
         if (books) by_air = with_impulse(by_air, sum.force, per_newton);
+        if (load_depth > 0) {
+            vec3 loaded = loads_on(texel, area_vector(all_edges, felt));
+            if (books) by_loads = with_impulse(by_loads, loaded, per_newton);
+            sum.force = with_loads(sum.force, loaded, LOAD(position, texel).w);
+        }
         if (weighs) sum.force = add_weight(sum.force, more_gravity, push.inner_mass, LOAD(position, texel).w);
         STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
     }
 }
 
 void main() {
-    int inputs = (push.first + given.substep) * (weighs ? 2 : 1);
+    int inputs = (push.first + given.substep) * weather_vectors;
     wind_velocity = wind[inputs].xyz;  // before anything branches (docs/devices.md)
+    first_load = inputs + (weighs ? 2 : 1) + push.first_load;
     if (weighs) more_gravity = wind[inputs + 1].xyz;
     if (books) per_newton = units_per_newton(impulse_units(), push.inverse_step, push.inner_mass);
     first_column = int(gl_GlobalInvocationID.x) * strip_columns;
@@ -97,4 +121,5 @@ void main() {
         if (y >= end) break;
     }
     if (books) book(impulse_air, 0, by_air);
+    if (books && load_depth > 0) book(impulse_loads, 0, by_loads);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "cloth/loads.h"
 #include "cloth/tear.h"
 #include "cloth/texels.h"
 #include "world/contact_shape.h"
@@ -48,6 +49,8 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     add_hands(actions.hands);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
     if (scene.solver.tethers) set_tethers(scene, cloth);
+    load_depth = drape::load_depth(cloth);
+    loads = load_texels(cloth, grid);
     if (cloth.tear) tear_limits = drape::tear_limits(cloth, grid);
     if (has_skin(cloth))
         for (std::size_t particle = 0; particle < position.size(); ++particle)

@@ -84,6 +84,9 @@ struct ClothGeometry {
     /// The load at which the springs along row and column tear (cloth/tear.h); empty: they never tear.
     std::vector<glsl::vec4> tear_limits;
 
+    std::uint32_t load_depth = 0;   ///< the largest number of loads on a particle
+    std::vector<glsl::vec4> loads;  ///< load_texels (cloth/loads.h)
+
     std::vector<DynamicPin> dynamic_pins;
     std::vector<glsl::PinnedParticle> pinned;  ///< particles of the dynamic pins; every hand lists all that there are
     bool has_release = false, has_motion = false;

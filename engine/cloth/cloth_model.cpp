@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/vectors.h"
+#include "cloth/loads.h"
 #include "world/contact_shape.h"
 #include "world/weather.h"
 
@@ -28,16 +30,44 @@ std::optional<KeptTurn> turn_of(const SceneDescription& scene, const ClothGeomet
     return known ? kept_turn(scene, cloth) : std::nullopt;
 }
 
+/// Lets loads act from the start on, as gravity does: each particle's displacement before it has their half kick.
+void kick(const Cloth& cloth, const MethodSettings& settings, ClothModel& model) {
+    // Such damping leaves nothing of a kick (method_line.cpp).
+    if (cloth.loads.empty() || (model.scheme.second_order && model.damping * settings.substep_length > 1)) return;
+    std::vector<Vec3> at;
+    for (const glsl::vec4& place : model.position) at.push_back({double{place.x}, double{place.y}, double{place.z}});
+    const std::vector<Vec3> force = load_forces(cloth, model.grid, at, 0);
+    model.scheme.starts.resize(force.size(), model.scheme.start);
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        MethodSettings pulled = settings;
+        pulled.gravity = times(double{model.free_weight[k]} / model.inner_mass, force[k]);
+        const glsl::vec4 more = verlet_start(model, pulled, {});
+        glsl::vec4& start = model.scheme.starts[k];
+        start = {start.x + more.x, start.y + more.y, start.z + more.z, start.w};
+    }
+}
+
+MethodSettings settings_of(const SceneDescription& scene, double substep_length, const std::optional<KeptTurn>& turn,
+                           const ModelOptions& options) {
+    return {scene.solver.substeps,
+            scene.solver.iterations,
+            substep_length,
+            gravity_at(scene, 0),
+            scene.solver.strain_damping,
+            !scene.colliders.empty(),
+            turn,
+            options.skip,
+            options.device};
+}
+
 }  // namespace
 
 ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, const ModelOptions& options)
     : ClothGeometry(scene, scene.cloths[cloth_index], !options.skip, actions_on(cloth_index, options)),
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
       turn(turn_of(scene, *this, options)),
-      scheme(row_of(scene.solver.method)
-                 .scheme(*this,
-                         {scene.solver.substeps, scene.solver.iterations, substep_length, gravity_at(scene, 0),
-                          scene.solver.strain_damping, !scene.colliders.empty(), turn, options.skip, options.device})) {
+      scheme(row_of(scene.solver.method).scheme(*this, settings_of(scene, substep_length, turn, options))) {
+    kick(scene.cloths[cloth_index], settings_of(scene, substep_length, turn, options), *this);
     set_constants(scene, scene.cloths[cloth_index], options.air || scene.wind.blows());
 }
 
@@ -79,7 +109,13 @@ void ClothModel::set_constants(const SceneDescription& scene, const Cloth& cloth
             static_cast<float>(half_density * w.lift),
             {static_cast<float>(spacing[0]), static_cast<float>(spacing[1])},
             0,
-            static_cast<float>(inner_mass)};
+            static_cast<float>(inner_mass),
+            0,
+            0};
+    for (const Cloth& each : scene.cloths) {
+        if (&each == &cloth) break;
+        wind.first_load += static_cast<int>(each.loads.size());
+    }
     // Another round cannot improve contacts that are shallower than a few roundings of the coordinates.
     collision = {{static_cast<float>(cloth.thickness), static_cast<float>(std::sqrt(cloth.friction)),
                   static_cast<float>(2.4e-7 * largest_coordinate(cloth)), static_cast<float>(recovery_speed * h)},

@@ -28,6 +28,7 @@ std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.m
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool windy(Context c) { return c.model.windy; }
+bool loaded(Context c) { return c.cloth.load_depth > 0; }
 bool windy_and_masked(Context c) { return windy(c) && masked(c); }
 bool stiffens(Context c) { return c.cloth.stiffens; }
 bool rests_bent(Context c) { return c.cloth.rests_bent(); }
@@ -61,6 +62,7 @@ FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.
 FieldExtent spring_list(Context c) {
     return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
 }
+FieldExtent load_list(Context c) { return {c.cloth.load_depth * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.columns(), c.cloth.grid.rows()}; }
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
@@ -127,6 +129,8 @@ std::vector<FieldRow> motion_rows() {
          [](Context) { return FieldExtent{glsl::paid_texels}; }},
         {Field::angular_error, "angular error", image, vector, state, rotates, one},
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
+        {Field::loads, "loads", image, vector, constant, loaded, load_list,
+         [](Context c) { return bytes_of_list(c.cloth.loads); }},
         {Field::impulses, "impulses", image, integer, state, tells_forces, impulse_table},
         {Field::pin_numbers, "pin numbers", image, integer, constant, splits_pins, particles,
          [](Context c) { return bytes_of_list(pin_numbers(c.model, index_of(c))); }},

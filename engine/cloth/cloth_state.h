@@ -40,6 +40,7 @@ enum class Field : std::uint8_t {
     paid,                      ///< what a substep of contact pays in advance (shared/rotation_types.h)
     angular_error,             ///< xyz: angular momentum that the frame's substeps took back (Rotation::taken)
     wind_force,                ///< N
+    loads,                     ///< ClothGeometry::loads
     impulses,                  ///< what changes the momentum in the frame (shared/impulse_types.h)
     pin_numbers,               ///< by particle, 1 and the number of the pin that holds it at the start, or 0
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched

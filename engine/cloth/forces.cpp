@@ -82,6 +82,15 @@ Vec3 fall(const SimulationModel& model, std::uint32_t frame) {
     return sum;
 }
 
+/// Returns what a load's force gave in a frame, N s, as substeps take it.
+Vec3 pulled(const SimulationModel& model, const Load& load, std::uint32_t frame) {
+    const double length = 1 / model.scene.time.fps, substep = length / model.scene.solver.substeps;
+    Vec3 sum{};
+    for (std::uint32_t k = 0; k < model.scene.solver.substeps; ++k)
+        sum = plus(sum, times(substep, force_at(load, (frame - 1) * length + (k + 0.5) * substep)));
+    return sum;
+}
+
 /// Returns what a source gave to a cloth of this mass, kg. `fallen`: what gravity gave to a kilogram, m/s.
 Impulse given_by(const ForceSource& source, const SimulationModel& model, const ClothModel& cloth, const Impulses& sums,
                  double mass, const Vec3& fallen) {
@@ -92,6 +101,8 @@ Impulse given_by(const ForceSource& source, const SimulationModel& model, const 
             return {times(-cloth.damping * cloth.inner_mass, sums.travel()), {}};
         case ForceCause::air:
             return sums.at(glsl::impulse_air);
+        case ForceCause::loads:
+            return sums.at(glsl::impulse_loads);
         case ForceCause::other_cloths:
             return sums.contact(glsl::impulse_cloths);
         case ForceCause::colliders:
@@ -118,6 +129,25 @@ std::vector<double> held_masses(const SimulationModel& model, std::size_t index,
             masses[numbers[i] - 1] += cloth.inner_mass / double{cloth.free_weight[i]};
     for (std::size_t pin = 0; pin < pins.size(); ++pin) masses[pin] *= held_share(model.scene, pins[pin], frame);
     return masses;
+}
+
+/// Returns what the forces of loads gave to what each pin of a cloth holds, N s.
+std::vector<Vec3> held_pulls(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
+    const ClothModel& cloth = model.cloths[index];
+    std::vector<Vec3> pulls(model.scene.cloths[index].pins.size()), each;
+    if (cloth.load_depth == 0 || pulls.empty()) return pulls;
+    for (const Load& load : model.scene.cloths[index].loads) each.push_back(pulled(model, load, frame));
+    const std::vector<glsl::uint> numbers = pin_numbers(model, index);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        for (std::size_t k = 0; k < cloth.load_depth && numbers[i] > 0; ++k) {
+            const glsl::vec4& share = cloth.loads[cloth.load_depth * i + k];
+            if (share.x < 0) break;
+            Vec3& pull = pulls[numbers[i] - 1];
+            pull = plus(pull, times(double{share.y}, each[static_cast<std::size_t>(share.x)]));
+        }
+    for (std::size_t pin = 0; pin < pulls.size(); ++pin)
+        pulls[pin] = times(held_share(model.scene, model.scene.cloths[index].pins[pin], frame), pulls[pin]);
+    return pulls;
 }
 
 /// The impulses of a frame on a cloth, by source.
@@ -148,7 +178,8 @@ struct Account {
         const auto acts = [&](std::size_t of) {
             const ForceCause cause = sources[of].cause;
             const bool touches = cause == ForceCause::colliders || cause == ForceCause::other_cloths;
-            return cause == ForceCause::air || (touches && length(impulses[of].given) > 0);
+            return cause == ForceCause::air || cause == ForceCause::loads ||
+                   (touches && length(impulses[of].given) > 0);
         };
         if (any(is_held)) return is_held(k);
         return any(acts) ? acts(k) : sources[k].cause == ForceCause::damping;
@@ -182,6 +213,7 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
         for (std::size_t k = 0; k < scene.cloths[index].pins.size(); ++k)
             all.push_back({ForceCause::pins, k, fmt::format("pins_{}", k)});
     add(scene.wind.blows() || model.options.air, ForceCause::air, "air");
+    add(cloth.load_depth > 0, ForceCause::loads, "loads");
     add(cloth.damping > 0, ForceCause::damping, "damping");
     for (std::size_t k = 0; k < scene.colliders.size(); ++k)
         all.push_back({ForceCause::colliders, k,
@@ -239,11 +271,13 @@ std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t
     const std::vector<ForceSource> sources = force_sources(model, index);
     const Impulses sums(bytes, cloth);
     const Vec3 fallen = fall(model, frame);
+    const std::vector<Vec3> pulls = held_pulls(model, index, frame);
     Account account{sources, {}, sums.change(), held_masses(model, index, frame)};
     for (const ForceSource& source : sources) {
         account.add(given_by(source, model, cloth, sums, mass, fallen));
         if (source.cause == ForceCause::pins)
-            account.give(account.impulses.size() - 1, times(-account.held[source.number], fallen));
+            account.give(account.impulses.size() - 1,
+                         times(-1, plus(times(account.held[source.number], fallen), pulls[source.number])));
     }
     account.close();
     std::vector<ForceOnCloth> forces;

@@ -13,10 +13,11 @@
 
 namespace drape {
 
-enum class ForceCause : std::uint8_t { gravity, pins, air, damping, colliders, other_cloths };
+enum class ForceCause : std::uint8_t { gravity, pins, air, loads, damping, colliders, other_cloths };
 
 /// In the order of ForceCause, as manifests name them.
-inline constexpr const char* force_causes[] = {"gravity", "pins", "air", "damping", "colliders", "other cloths"};
+inline constexpr const char* force_causes[] = {"gravity", "pins",      "air",         "loads",
+                                               "damping", "colliders", "other cloths"};
 inline const char* name_of(ForceCause cause) { return force_causes[static_cast<std::size_t>(cause)]; }
 
 /// One thing that gives a cloth momentum.

@@ -155,6 +155,14 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end, doub
 
 }  // namespace
 
+std::size_t weather_vectors(const SimulationModel& model) {
+    if (!model.windy) return 0;
+    std::size_t count = model.weighs ? 2 : 1;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        if (model.cloths[cloth].member == 0) count += model.scene.cloths[cloth].loads.size();
+    return count;
+}
+
 std::size_t collider_record_count(const SimulationModel& model) {
     return model.kept_colliders.size() * model.scene.colliders.size() *
            (model.colliders_move ? model.most_substeps() : 1);
@@ -208,6 +216,12 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
                 inputs.wind.push_back(row({more[0], more[1], more[2]}, 0, 0));
             }
         }
+        for (const Cloth& cloth : scene.cloths)
+            for (const Load& load : cloth.loads) {
+                const double middle = 0.5 * (start + end);
+                const Vec3 force = force_at(load, middle);
+                inputs.wind.push_back(row({force[0], force[1], force[2]}, 0, pressure_at(load, middle)));
+            }
         if (substep == 0 || model.colliders_move)
             for (const std::vector<KeptCollider>& list : model.kept_colliders)
                 for (std::size_t k = 0; k < list.size(); ++k) {

@@ -15,6 +15,8 @@ namespace drape {
 /// Returns the motion of a pin at a time: x = R (rest - pivot) + pivot + translation, about its pivot.
 RigidTransform pin_transform(const DynamicPin& pin, double time);
 
+/// Returns the number of vectors that FrameInputs::wind has for a substep of one scene.
+std::size_t weather_vectors(const SimulationModel& model);
 /// Returns the number of collider records in a frame: one for each entry of every list
 /// (SimulationModel::kept_colliders), or one for each substep if any collider is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);
@@ -33,8 +35,8 @@ glsl::ColliderRecord collider_record(const Collider& collider, double before, do
 void add_deformation(glsl::ColliderRecord& record, double share, double way);
 
 struct FrameInputs {
-    /// By member and substep, the wind, m/s; where gravity changes, each wind is followed by the difference of gravity
-    /// from the start, m/s^2. Empty without either.
+    /// By member and substep, the wind, m/s; where gravity changes, the difference of gravity from the start, m/s^2; of
+    /// each load of the member's cloths the force, N, and beside it the pressure, Pa. Empty without any of it.
     std::vector<glsl::vec4> wind;
     std::vector<float> stiffness;                 ///< by cloth, the factor of its stiffness; empty: none changes
     std::vector<glsl::ColliderRecord> colliders;  ///< by substep, and within it list by list, in the scene's order

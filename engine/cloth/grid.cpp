@@ -21,11 +21,11 @@ Grid::Grid(const Cloth& cloth) : Grid(cloth.grid[0], cloth.grid[1], cloth.holes)
     stiffness_ = cloth.cell_stiffness;
     density_ = cloth.cell_density;
     if (!cloth.panel.empty()) {
-        const std::vector<double> areas = cell_areas(cloth);
+        areas_ = cell_areas(cloth);
         for (std::vector<float>* factors : {&stiffness_, &density_}) {
-            factors->resize(areas.size(), 1);
-            for (std::size_t cell = 0; cell < areas.size(); ++cell)
-                (*factors)[cell] = static_cast<float>(double{(*factors)[cell]} * areas[cell]);
+            factors->resize(areas_.size(), 1);
+            for (std::size_t cell = 0; cell < areas_.size(); ++cell)
+                (*factors)[cell] = static_cast<float>(double{(*factors)[cell]} * areas_[cell]);
         }
         shape_ = shape_factors(cloth);
     }
@@ -48,6 +48,11 @@ double Grid::cell_masses(std::uint32_t column, std::uint32_t row) const {
     for (const int y : {j - 1, j})
         for (const int x : {i - 1, i}) sum += cell_density(x, y);
     return sum;
+}
+
+double Grid::cell_area(int column, int row) const {
+    if (cell(column, row) == 0) return 0;
+    return areas_.empty() ? 1.0 : areas_[static_cast<std::size_t>(row) * (columns_ - 1) + column];
 }
 
 float Grid::cell_density(int column, int row) const {

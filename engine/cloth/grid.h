@@ -38,6 +38,8 @@ class Grid {
     /// Returns whether every cell exists and has the same factors; then no mask is needed anywhere.
     bool whole() const { return whole_; }
 
+    /// Returns a cell's area at rest over that of a whole one: 1 but beside an outline; 0: the cell is missing.
+    double cell_area(int column, int row) const;
     /// Returns the factor of a cell's mass; 0: the cell is missing.
     float cell_density(int column, int row) const;
     /// Returns the sum of the factors of the mass of the cells around a particle, in units of a quarter of a cell's
@@ -60,6 +62,7 @@ class Grid {
     std::uint32_t columns_, rows_;
     std::vector<std::uint32_t> cells_;
     std::vector<float> stiffness_, density_;    ///< factors by cell; empty: 1
+    std::vector<double> areas_;                 ///< by cell, of an outline; empty: 1
     std::vector<std::array<double, 4>> shape_;  ///< factors by particle and direction, of an outline; empty: 1
     bool whole_ = true;
 };

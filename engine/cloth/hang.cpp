@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.h"
+#include "cloth/loads.h"
+#include "world/gust.h"
 #include "world/weather.h"
 
 namespace drape {
@@ -66,26 +69,39 @@ bool held_by_lone_pins(const Cloth& cloth) {
     return !cloth.pins.empty();
 }
 
-}  // namespace
-
+/// Returns the acceleration, m/s^2, by wind of a speed (m/s): its pressure on a plate that faces it.
 double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
     if (!scene.wind.blows()) return 0;
     const double pressure = 0.5 * scene.wind.air_density * std::max(scene.wind.drag, scene.wind.lift) * (speed * speed);
     return pressure / cloth.areal_density;
 }
 
+/// Returns the share of this acceleration that stretches a cloth.
 double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed) {
     return wind_share * most_wind_acceleration(scene, cloth, speed);
 }
 
+}  // namespace
+
+double most_weather_acceleration(const SceneDescription& scene, const Cloth& cloth) {
+    // What pulls at a corner strains the springs there as four times its share of the cloth's weight would.
+    return length(strongest_gravity(scene)) + most_wind_acceleration(scene, cloth, fastest_wind(scene.wind)) +
+           4 * most_load_acceleration(cloth);
+}
+
+double weather_acceleration(const SceneDescription& scene, const Cloth& cloth, double time) {
+    return length(gravity_at(scene, time)) + wind_acceleration(scene, cloth, length(wind_velocity(scene.wind, time))) +
+           load_acceleration(cloth, time);
+}
+
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth) {
-    const auto length = [](const Vec3& v) { return std::hypot(v[0], v[1], v[2]); };
     Hang hang{};
     hang.length = hanging_length(cloth);
     hang.spacing = least_spacing(cloth);
-    const double wind_speed = length(strongest_wind(scene.wind)) + scene.wind.gust.amplitude;
-    hang.gravity = length(strongest_gravity(scene));
-    hang.acceleration = hang.gravity + wind_acceleration(scene, cloth, wind_speed);
+    const Vec3 gravity = strongest_gravity(scene);
+    hang.gravity = std::hypot(gravity[0], gravity[1], gravity[2]);
+    hang.acceleration =
+        hang.gravity + wind_acceleration(scene, cloth, fastest_wind(scene.wind)) + most_load_acceleration(cloth);
     const int axis = axis_from_held_edge(cloth);
     hang.by_an_edge = axis >= 0 && scene.colliders.empty() && !scene.comes_apart();
     hang.by_lone_pins = held_by_lone_pins(cloth) && scene.colliders.empty() && !scene.comes_apart();

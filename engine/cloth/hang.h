@@ -17,11 +17,12 @@ struct Hang {
     std::size_t particle_count;
 };
 
-/// Returns the acceleration, m/s^2, by wind of a speed (m/s): its pressure on a plate that faces it. It is 0 without
-/// wind.
-double most_wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
-/// Returns the share of this acceleration that stretches a cloth.
-double wind_acceleration(const SceneDescription& scene, const Cloth& cloth, double speed);
+/// Returns the largest acceleration, m/s^2, by all weather: gravity, loads, and the wind's pressure on a
+/// plate that faces it.
+double most_weather_acceleration(const SceneDescription& scene, const Cloth& cloth);
+
+/// Returns the acceleration, m/s^2, by which the weather of a time (s) stretches a cloth.
+double weather_acceleration(const SceneDescription& scene, const Cloth& cloth, double time);
 
 Hang hang_of(const SceneDescription& scene, const Cloth& cloth);
 

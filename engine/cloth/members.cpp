@@ -56,6 +56,16 @@ std::string pins(const std::vector<Pin>& pins) {
     return boxes(held) + moves;
 }
 
+std::string loads(const std::vector<Load>& loads) {
+    std::vector<IndexBox> loaded;
+    std::string kinds;
+    for (const Load& load : loads) {
+        loaded.push_back(load.particles);
+        kinds += load.presses() ? " pressed" : " pulled";
+    }
+    return boxes(loaded) + kinds;
+}
+
 /// Returns how two cloths differ in shape by one key.
 Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& first, const Cloth& other) {
     const std::string pointer = fmt::format("{}{}", at, pointer_of(key));
@@ -79,6 +89,8 @@ Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& fi
             return map_difference(pointer, first.particle_thickness, other.particle_thickness);
         case ClothKey::pins:
             return differ(pointer, pins(first.pins), pins(other.pins));
+        case ClothKey::loads:
+            return differ(pointer, loads(first.loads), loads(other.loads));
         case ClothKey::stiffness_keys:
             return differ(pointer, there(!first.stiffness_keys.empty()), there(!other.stiffness_keys.empty()));
         case ClothKey::stiffness:

@@ -80,7 +80,10 @@ void SimulationModel::take_actions(const SimulationModel& acted) {
         scene.colliders[k].path = acted.scene.colliders[k].path;
         for (std::vector<KeptCollider>& list : kept_colliders) list[k].collider.path = scene.colliders[k].path;
     }
-    for (std::size_t k = 0; k < cloths.size(); ++k) cloths[k].dynamic_pins = acted.cloths[k].dynamic_pins;
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        cloths[k].dynamic_pins = acted.cloths[k].dynamic_pins;
+        scene.cloths[k].loads = acted.scene.cloths[k].loads;
+    }
 }
 
 void SimulationModel::add_colliders() {

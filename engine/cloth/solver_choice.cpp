@@ -46,6 +46,8 @@ void leave_out_particles(ClothKey key, Cloth& cloth) {
     switch (key) {
         case ClothKey::pins:
             return cloth.pins.clear();
+        case ClothKey::loads:
+            return cloth.loads.clear();
         case ClothKey::holes:
             return cloth.holes.clear();
         case ClothKey::start:

@@ -34,6 +34,8 @@ bool have_same_shape(ClothKey key, const Cloth& one, const Cloth& other) {
             return one.stiffness_keys.empty() && other.stiffness_keys.empty();
         case ClothKey::self_collision:
             return one.self_collision.has_value() == other.self_collision.has_value();
+        case ClothKey::loads:
+            return std::ranges::equal(one.loads, other.loads, {}, &Load::particles, &Load::particles);
         case ClothKey::particle_friction:
         case ClothKey::particle_thickness:
             return has_skin(one) == has_skin(other);
@@ -90,6 +92,7 @@ bool is_in_state(ClothKey key) {
         case ClothKey::cell_tear:
         case ClothKey::particle_friction:
         case ClothKey::particle_thickness:
+        case ClothKey::loads:
             return false;
     }
     return false;

@@ -114,9 +114,7 @@ double stretch_law(const Causes& causes, std::size_t index, double speed) {
     const SceneDescription& scene = causes.model().scene;
     const double step = 1 / (scene.time.fps * scene.solver.substeps);
     const double iterations = causes.model().method().iterates() ? scene.solver.iterations : 1;
-    const double blows = length(strongest_wind(scene.wind)) + std::abs(scene.wind.gust.amplitude);
-    const double acceleration = length(strongest_gravity(scene)) + speed * speed / cloth.reach() +
-                                most_wind_acceleration(scene, scene.cloths[index], blows);
+    const double acceleration = most_weather_acceleration(scene, scene.cloths[index]) + speed * speed / cloth.reach();
     double most = 0;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const double edges = (axis == 0 ? cloth.grid.columns() : cloth.grid.rows()) - 1;

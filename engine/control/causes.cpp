@@ -6,6 +6,7 @@
 #include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
+#include "cloth/loads.h"
 #include "world/collider_pose.h"
 #include "world/weather.h"
 
@@ -89,6 +90,7 @@ double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
 Causes::Start start_of(const SceneDescription& scene, const Cloth& described, const ClothModel& cloth,
                        const ClothStatistics& statistics) {
     Causes::Start start{.mean = statistics.center_of_mass, .diagonal = cloth.reach()};
+    if (!described.loads.empty()) start.load_masses = local_load_masses(described);
     const std::vector<float> shares = mass_shares(cloth);
     double squares = 0;
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -197,11 +199,12 @@ double Causes::pushed() const {
 double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
     const Cloth& cloth = model_.scene.cloths[index];
     const Start& start = starts_[index];
-    const double time = frame / model_.scene.time.fps, gravity = length(strongest_gravity(model_.scene));
-    const double fall = start.held ? std::min(gravity * time, 2 * std::sqrt(gravity * start.diagonal)) : gravity * time;
-    const double wind = length(strongest_wind(model_.scene.wind)) + std::abs(model_.scene.wind.gust.amplitude);
+    const double time = frame / model_.scene.time.fps;
+    double pull = length(strongest_gravity(model_.scene));  // m/s^2
+    for (std::size_t k = 0; k < start.load_masses.size(); ++k) pull += strongest(cloth.loads[k]) / start.load_masses[k];
+    const double fall = start.held ? std::min(pull * time, 2 * std::sqrt(pull * start.diagonal)) : pull * time;
     const double strained = std::min(drive(frame, index).travel / std::min(cloth.size[0], cloth.size[1]), 1.0);
-    return model_.cloths[index].start_speed + fall + (model_.windy ? wind : 0) + start.released + pushed() +
+    return model_.cloths[index].start_speed + fall + fastest_wind(model_.scene.wind) + start.released + pushed() +
            drive(frame, index).speed + strained * start.wave + start.recoil;
 }
 

@@ -30,6 +30,7 @@ class Causes {
         double wave = 0;          ///< m/s at which strain spreads and is released
         double released = 0;      ///< m/s that a cloth gains when its initial strain and bending are released
         double recoil = 0;        ///< m/s that a cloth gains when it stiffens after gravity stretched it at its softest
+        std::vector<double> load_masses{};  ///< local_load_masses (cloth/loads.h)
     };
     /// How pins and colliders move from the start to the end of a frame.
     struct Drive {

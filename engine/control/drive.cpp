@@ -10,8 +10,6 @@
 #include "control/frame_judgement.h"
 #include "mesh/mesh_sequence.h"
 #include "world/collider_pose.h"
-#include "world/gust.h"
-#include "world/weather.h"
 
 namespace drape {
 
@@ -81,10 +79,7 @@ std::vector<double> drive_of(const SimulationModel& model, std::uint32_t frame) 
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         for (int part = 0; part < parts; ++part) {
             const double time = (static_cast<double>(frame) - 1) / scene.time.fps + (2 * part + 1) * step;
-            const double wind =
-                model.windy ? wind_acceleration(scene, scene.cloths[cloth], length(wind_velocity(scene.wind, time)))
-                            : 0;
-            drive[cloth] = std::max(drive[cloth], length(gravity_at(scene, time)) + wind +
+            drive[cloth] = std::max(drive[cloth], weather_acceleration(scene, scene.cloths[cloth], time) +
                                                       of_pins(model.cloths[cloth], time, step) +
                                                       of_colliders(scene, model.cloths[cloth], time, step));
         }

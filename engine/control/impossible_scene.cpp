@@ -149,7 +149,7 @@ std::optional<Finding> pinched(const SimulationModel& model, std::size_t cloth, 
 std::optional<Finding> blown_away(const SimulationModel& model, std::size_t cloth, double bound) {
     const Wind& wind = model.scene.wind;
     if (!wind.blows() || !(wind.drag > 0)) return std::nullopt;
-    const double speed = length(strongest_wind(wind)) + wind.gust.amplitude;
+    const double speed = fastest_wind(wind);
     const double seconds = 2 * model.scene.cloths[cloth].areal_density / (wind.air_density * wind.drag * speed);
     return Finding{.value = 1 / (seconds * model.scene.time.fps), .bound = bound};
 }

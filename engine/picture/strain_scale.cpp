@@ -15,7 +15,7 @@ constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 
 /// Returns the load, N/m, on an edge that bears the cloth's weight, multiplied as pins and folds concentrate it, or the
 /// wind's push.
 double edge_force(const Cloth& cloth, const SceneDescription& scene) {
-    const double fastest = length(strongest_wind(scene.wind)) + (scene.wind.blows() ? scene.wind.gust.amplitude : 0);
+    const double fastest = fastest_wind(scene.wind);
     const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;
     return std::max(gathered_weights * cloth.areal_density * length(strongest_gravity(scene)), pressure) *
            std::max(cloth.size[0], cloth.size[1]);

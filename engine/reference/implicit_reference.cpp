@@ -14,7 +14,7 @@ namespace drape {
 namespace {
 
 /// Implicit midpoint: the unknown is the middle position q = x + h v_m/2, with v_m = v + h/2 (a(q) - c v_m). It solves
-///   (4/h^2)(1 + c h/2) M (q - x) - (2/h) M v + grad E(q) - F_wind(q, v_m) - M g'(t) = 0,
+///   (4/h^2)(1 + c h/2) M (q - x) - (2/h) M v + grad E(q) - F_outer(q, v_m) - M g'(t) = 0,
 /// with g' what gravity is more than at the start.
 class MidpointRun {
   public:
@@ -51,20 +51,20 @@ class MidpointRun {
 
     Eigen::VectorXd residual(const std::vector<Vec3>& middle, double middle_time) const {
         std::vector<Vec3> sum = network_.gradient(middle);
-        std::vector<Vec3> wind(sum.size(), Vec3{});
-        if (network_.wind.blows()) {
+        std::vector<Vec3> outer(sum.size(), Vec3{});
+        if (network_.has_outer_forces()) {
             std::vector<Vec3> velocity = state_.velocity;
             for (const std::uint32_t p : system_->free_particles())
                 for (std::size_t k = 0; k < 3; ++k) velocity[p][k] = 2 / step_ * (middle[p][k] - state_.position[p][k]);
             for (const std::uint32_t p : moved_) velocity[p] = network_.pinned_velocity(p, middle_time);
-            network_.add_wind_force(middle, velocity, middle_time, wind);
+            network_.add_outer_forces(middle, velocity, middle_time, outer);
         }
         const Vec3 more = network_.more_gravity(middle_time);
         for (const std::uint32_t p : system_->free_particles())
             for (std::size_t k = 0; k < 3; ++k)
                 sum[p][k] += network_.mass[p] * (inertia() * (middle[p][k] - state_.position[p][k]) -
                                                  2 / step_ * state_.velocity[p][k] - more[k]) -
-                             wind[p][k];
+                             outer[p][k];
         return system_->gather(sum);
     }
 

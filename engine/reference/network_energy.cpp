@@ -90,6 +90,26 @@ std::vector<Vec3> SpringNetwork::gradient(std::span<const Vec3> position) const 
 
 Vec3 SpringNetwork::more_gravity(double time) const { return value_at(gravity_keys, gravity, time) - gravity; }
 
+void SpringNetwork::add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
+                                     std::span<Vec3> force) const {
+    add_wind_force(position, velocity, time, force);
+    add_load_forces(position, time, force);
+}
+
+void SpringNetwork::add_load_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const {
+    for (const NetworkLoad& load : loads) {
+        const Vec3 pull = force_at(load.load, time);
+        for (std::size_t p = 0; p < force.size(); ++p) add_scaled(force[p], load.share[p], pull);
+        const double pressure = pressure_at(load.load, time);
+        if (pressure == 0) continue;
+        for (const auto& [particle, in_row, in_column] : quarters) {
+            const Vec3 normal = cross(position[in_row] - position[particle], position[in_column] - position[particle]);
+            const double turned = (in_row > particle) == (in_column > particle) ? 0.25 : -0.25;
+            add_scaled(force[particle], turned * pressure * load.factor[particle], normal);
+        }
+    }
+}
+
 void SpringNetwork::add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                                    std::span<Vec3> force) const {
     if (!wind.blows()) return;

@@ -59,6 +59,7 @@ const char* unsupported(ClothKey key, const Cloth& cloth) {
         case ClothKey::cell_stiffness:
         case ClothKey::cell_density:
         case ClothKey::pins:
+        case ClothKey::loads:
         case ClothKey::appearance:
         // Contact and tears are left out.
         case ClothKey::friction:
@@ -107,6 +108,7 @@ SpringNetwork::SpringNetwork(const SceneDescription& scene, std::size_t cloth_in
                                         grid.particle(column + 1 - right, row + down),
                                         grid.particle(column + right, row + 1 - down)});
         }
+    for (const Load& load : cloth.loads) add_load(load, grid);
 }
 
 void SpringNetwork::place(const Cloth& cloth, const Grid& grid) {
@@ -138,6 +140,21 @@ void SpringNetwork::hold_pins(const Cloth& cloth, const Grid& grid) {
         const Pin& pin = cloth.pins[index];
         pins.push_back({pin.path, pin.pivot.value_or(centroid), pin.release});
     }
+}
+
+void SpringNetwork::add_load(const Load& load, const Grid& grid) {
+    NetworkLoad added{load, std::vector<double>(particle_count()), std::vector<double>(particle_count())};
+    double sum = 0;
+    for (const auto& quarter : quarters) {
+        const std::uint32_t p = quarter[0], column = p % grid.columns(), row = p / grid.columns();
+        const auto& [first, last] = load.particles;
+        if (column < first[0] || row < first[1] || column > last[0] || row > last[1]) continue;
+        added.factor[p] = load.factors.empty() ? 1.0 : double{load.factors[p]};
+        added.share[p] += added.factor[p];
+        sum += added.factor[p];
+    }
+    for (double& share : added.share) share /= std::max(sum, 1e-300);
+    loads.push_back(std::move(added));
 }
 
 void SpringNetwork::add_springs(const Cloth& cloth, const Grid& grid) {
@@ -291,6 +308,16 @@ void add(StableHash& hash, const std::vector<VectorKey>& keys) {
     }
 }
 
+void add(StableHash& hash, const NetworkLoad& load) {
+    for (const double each : load.share) hash.add(each);
+    for (const double each : load.factor) hash.add(each);
+    add(hash, load.load.force);
+    add(hash, load.load.force_keys);
+    hash.add(load.load.pressure.value_or(0));
+    for (const NumberKey& key : load.load.pressure_keys)
+        for (const double each : {key.time, key.value}) hash.add(each);
+}
+
 void add(StableHash& hash, const Wind& wind) {
     add(hash, wind.velocity);
     for (const double value : {wind.gust.amplitude, wind.gust.period, wind.air_density, wind.drag, wind.lift})
@@ -329,6 +356,7 @@ std::uint64_t SpringNetwork::fingerprint() const {
     add(hash, gravity_keys);
     hash.add(damping);
     add(hash, wind);
+    for (const NetworkLoad& load : loads) add(hash, load);  // without any the fingerprint is as before there were any
     return hash.value();
 }
 

@@ -47,6 +47,12 @@ struct NetworkPin {
     bool operator==(const NetworkPin&) const = default;
 };
 
+/// A load of the scene, and what share of its force and which factor of its pressure each particle has.
+struct NetworkLoad {
+    Load load;
+    std::vector<double> share, factor;
+};
+
 struct NetworkState {
     std::vector<Vec3> position;  ///< m
     std::vector<Vec3> velocity;  ///< m/s
@@ -93,6 +99,7 @@ struct SpringNetwork {
     std::vector<VectorKey> gravity_keys;  ///< m/s^2; empty: it stays
     double damping = 0;                   ///< 1/s: acceleration -damping * velocity
     Wind wind;
+    std::vector<NetworkLoad> loads;
 
     std::size_t particle_count() const { return mass.size(); }
     /// Returns whether a particle is held at `time`; from its release on it is free.
@@ -116,6 +123,13 @@ struct SpringNetwork {
     std::vector<Vec3> gradient(std::span<const Vec3> position) const;
     /// Returns what gravity is more at a time (s) than at the start, m/s^2.
     Vec3 more_gravity(double time) const;
+    /// Returns whether anything but gravity acts from outside.
+    bool has_outer_forces() const { return wind.blows() || !loads.empty(); }
+    /// Adds what acts on the particles from outside, N, beside gravity: wind and loads.
+    void add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
+                          std::span<Vec3> force) const;
+    /// Adds the loads' forces (N). A pressure acts on each quarter of a cell by its area, towards u x v.
+    void add_load_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const;
     /// Adds the wind's force (N) by the scene's formula per quarter of a cell, to its particle.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;
@@ -131,6 +145,7 @@ struct SpringNetwork {
   private:
     void place(const Cloth& cloth, const Grid& grid);
     void hold_pins(const Cloth& cloth, const Grid& grid);
+    void add_load(const Load& load, const Grid& grid);
     void add_springs(const Cloth& cloth, const Grid& grid);
     void add_bending(const Cloth& cloth, const Grid& grid);
 };

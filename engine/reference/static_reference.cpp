@@ -125,6 +125,7 @@ StaticResult find_equilibrium(const SpringNetwork& network, std::span<const Vec3
     constexpr double always = std::numeric_limits<double>::infinity();
     if (!is_steady(network.gravity_keys, -always, always))
         throw std::invalid_argument("static reference: where gravity changes, nothing comes to rest");
+    if (!network.loads.empty()) throw std::invalid_argument("static reference: it knows no loads");
     std::vector<Vec3> from(start.begin(), start.end());
     std::uint32_t iterations = 0;
     if (options.soften_first)

@@ -67,7 +67,7 @@ class SymplecticRun {
 
     void make_step() {
         const std::size_t count = free_.size();
-        const bool windy = network_.wind.blows();
+        const bool driven = network_.has_outer_forces();
         for (std::size_t axis = 0; axis < 3; ++axis) {
             double *x = position_[axis].data(), *v = velocity_[axis].data();
             const double* a = acceleration_[axis].data();
@@ -77,7 +77,7 @@ class SymplecticRun {
                 u[p] = drift_velocity_ * v[p] + drift_acceleration_ * a[p];
                 x[p] += u[p];
             }
-            if (windy)
+            if (driven)
                 for (std::size_t p = 0; p < count; ++p) v[p] = decay_ * v[p] + drift_velocity_ * a[p];
         }
         follow_pins();
@@ -105,9 +105,9 @@ class SymplecticRun {
 
     void find_acceleration(const Planes& velocity) {
         kernel_.accelerations(position_, acceleration_);
-        if (network_.wind.blows()) {
+        if (network_.has_outer_forces()) {
             std::vector<Vec3> force(free_.size(), Vec3{});
-            network_.add_wind_force(from_planes(position_), from_planes(velocity), time_, force);
+            network_.add_outer_forces(from_planes(position_), from_planes(velocity), time_, force);
             for (std::size_t p = 0; p < free_.size(); ++p)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     if (network_.mass[p] > 0) acceleration_[axis][p] += force[p][axis] / network_.mass[p];

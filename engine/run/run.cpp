@@ -37,6 +37,11 @@ std::string given_hash(ClothKey key, const Cloth& cloth) {
             return hash_of(cloth.cell_density);
         case ClothKey::cell_tear:
             return hash_of(cloth.cell_tear);
+        case ClothKey::loads: {
+            std::string hash;
+            for (const Load& load : cloth.loads) hash += load.factors.empty() ? "" : hash_of(load.factors);
+            return hash;
+        }
         case ClothKey::particle_friction:
             return has_skin(cloth) ? hash_of(cloth.particle_friction) : "";
         case ClothKey::particle_thickness:

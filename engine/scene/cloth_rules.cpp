@@ -42,13 +42,13 @@ bool check_box(const SceneNode& node, const IndexBox& box, const Particle& grid)
 }
 
 bool find_particles(const SceneNode& node, const Particle& grid, const Cloth& cloth, const std::array<double, 2>& low,
-                    Pin& pin) {
-    if (const SceneNode point = node.member("point")) return find_point(point, cloth, low, pin.particles);
-    if (const SceneNode at = node.member("at")) return check_particle(at, pin.particles.first, grid);
-    if (const SceneNode box = node.member("box")) return check_box(box, pin.particles, grid);
+                    IndexBox& particles) {
+    if (const SceneNode point = node.member("point")) return find_point(point, cloth, low, particles);
+    if (const SceneNode at = node.member("at")) return check_particle(at, particles.first, grid);
+    if (const SceneNode box = node.member("box")) return check_box(box, particles, grid);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-        pin.particles.first[axis] *= grid[axis] - 1;
-        pin.particles.last[axis] *= grid[axis] - 1;
+        particles.first[axis] *= grid[axis] - 1;
+        particles.last[axis] *= grid[axis] - 1;
     }
     return true;
 }
@@ -225,6 +225,54 @@ void check_meeting_outlines(const SceneNode& cloths, const SceneDescription& sce
                 "outlines yet");
 }
 
+constexpr std::initializer_list<const char*> particle_words{"edge", "corner", "at", "box", "point"};
+
+int count_of(const Members& members, std::initializer_list<const char*> keys) {
+    int count = 0;
+    for (const char* key : keys) count += members[key] ? 1 : 0;
+    return count;
+}
+
+/// Finds the particles of a cloth's loads, and their maps.
+bool take_loads(const SceneNode& node, const std::array<double, 2>& low, Cloth& cloth) {
+    bool fits = true;
+    for (std::size_t i = 0; i < cloth.loads.size(); ++i) {
+        const SceneNode element = node.element(i);
+        Load& load = cloth.loads[i];
+        if (!find_particles(element, cloth.grid, cloth, low, load.particles) || !take_load_map(element, cloth, load)) {
+            fits = false;
+        } else if (!is_loaded(cloth, load)) {
+            fits = element.fail("expected a particle that has a cell, where the map is above 0, got none");
+        }
+    }
+    return fits;
+}
+
+/// A particle that a load moves by ten thousand edges in a substep is beyond any use, too.
+bool check_loads(const SceneNode& cloths, const SceneDescription& scene) {
+    constexpr double most = 1e4;
+    bool fits = true;
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        const Cloth& cloth = scene.cloths[i];
+        const auto [dx, dy] = grid_spacing(cloth);
+        for (std::size_t k = 0; k < cloth.loads.size(); ++k) {
+            const Load& load = cloth.loads[k];
+            const auto& [first, last] = load.particles;
+            const double count = (last[0] - first[0] + 1.0) * (last[1] - first[1] + 1.0);
+            const double area = load.presses() ? 1.0 : 0.25 * dx * dy * count;
+            const double pulled =
+                fall_per_substep(scene, cloth, strongest(load) / (cloth.areal_density * area), scene.time.fps);
+            if (pulled > most)
+                fits = cloths.element(i).member("loads").element(k).fail(fmt::format(
+                    "expected a weaker load, more particles or more frames per second: it would move "
+                    "particles by {:.3g} of the cloth's edge lengths in a substep, and at most {:.0e} can be "
+                    "simulated",
+                    pulled, most));
+        }
+    }
+    return fits;
+}
+
 constexpr std::size_t most_force_pins = 1000;
 
 /// What holds a cloth is told apart among its pins by what its springs bear, which rigid ones do not say.
@@ -291,9 +339,20 @@ bool check_placement(const Members& members, Placement& placement) {
     return members.object().fail(fmt::format("expected u and v at right angles, got a cosine of {:.6g}", cosine));
 }
 
+bool check_load(const Members& members, Load& load) {
+    const int places = count_of(members, particle_words);
+    if (places == 0) load.particles = {{0, 0}, {1, 1}};  // of a grid whose last column and row are 1
+    if (places > 1)
+        return members.object().fail(
+            fmt::format("expected at most one of edge, corner, at, box and point, got {} of them", places));
+    const int kinds = count_of(members, {"force", "force_keys", "pressure", "pressure_keys"});
+    if (kinds == 1) return true;
+    return members.object().fail(
+        fmt::format("expected exactly one of force, force_keys, pressure and pressure_keys, got {} of them", kinds));
+}
+
 bool check_pin(const Members& members, Pin&) {
-    int count = 0;
-    for (const char* key : {"edge", "corner", "at", "box", "point"}) count += members[key] ? 1 : 0;
+    const int count = count_of(members, particle_words);
     if (count == 1) return true;
     return members.object().fail(
         fmt::format("expected exactly one of edge, corner, at, box and point, got {} of them", count));
@@ -319,7 +378,9 @@ bool check_cloth(const Members& members, Cloth& cloth) {
         fits = members[members["holes"] ? "holes" : "maps"].fail(
             "expected holes that leave a cell of the cloth, got none left");
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-        fits = find_particles(members["pins"].element(i), grid, cloth, low, cloth.pins[i]) && fits;
+        fits = find_particles(members["pins"].element(i), grid, cloth, low, cloth.pins[i].particles) && fits;
+    if (fits && members.fit({"grid", "size", "holes", "maps", "loads"}))
+        fits = take_loads(members["loads"], low, cloth);
     if (members.fit({"grid", "size", "holes", "maps", "start"})) fits = take_start(members, cloth) && fits;
     if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
@@ -357,6 +418,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (members.fit({"cloths", "forces"})) check_forces(node, scene);
     if (members.fit({"cloths", "solver"})) check_tear_limits(node, scene);
     warn_of_doubts(members, scene);
+    if (members.fit({"time", "cloths", "solver"}) && !check_loads(node, scene)) return false;
     return !members.fit({"time", "gravity", "gravity_keys", "cloths", "solver"}) || check_fall(members, scene);
 }
 

@@ -161,7 +161,7 @@ bool may_reach_edge(const Cloth& cloth, const Collider& collider, const SceneDes
     if (box == nullptr) return false;
     const bool pins_move = std::ranges::any_of(cloth.pins, [](const Pin& pin) { return !pin.path.keys.empty(); });
     const bool driven = pins_move || !collider.path.keys.empty() || start_speed(cloth) > 0 ||
-                        !scene.gravity_keys.empty() || length(strongest_wind(scene.wind)) > 0;
+                        !scene.gravity_keys.empty() || fastest_steady_wind(scene.wind) > 0;
     const StartBox within = reach_of(cloth, scene, driven);
     if (edge_within(box->half_extents, collider_pose(collider, 0), within)) return true;
     return std::ranges::any_of(collider.path.keys, [&](const MotionKey& key) {
@@ -196,7 +196,7 @@ void warn_of_doubts(const Members& members, const SceneDescription& scene) {
             warn_of_far(members["colliders"].member(collider_lists[kind]).element(place).member("path"), collider.path);
         }
     }
-    const double wind = length(strongest_wind(scene.wind));
+    const double wind = fastest_steady_wind(scene.wind);
     if (members.fit({"wind"}) && wind > fast)
         members["wind"]
             .member(scene.wind.keys.empty() ? "velocity" : "keys")

@@ -166,6 +166,18 @@ bool take_velocities(const Members& members, Cloth& cloth) {
     return node.fail(fmt::format("expected {} in '{}'", fault, name));
 }
 
+bool take_load_map(const SceneNode& load, const Cloth& cloth, Load& to) {
+    const SceneNode node = load.member("map");
+    std::string name;
+    if (!node || !node.read(name) || is_too_large(cloth)) return true;
+    try {
+        to.factors = factors(particle_values(node, name, cloth), {0, 1}, 1);
+    } catch (const OutputError& error) {
+        return node.fail(error.what());
+    }
+    return true;
+}
+
 bool take_maps(const Members& members, Cloth& cloth) {
     const SceneNode node = members["maps"];
     if (!node || is_too_large(cloth)) return true;

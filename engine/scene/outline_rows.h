@@ -28,10 +28,4 @@ inline bool read_outline(const SceneNode& node, Cloth&) {
     return outline.read(node, ignored);
 }
 
-/// Reads the point; the rule of the cloth, which knows the outline, finds its particle.
-inline bool read_point(const SceneNode& node, Pin&) {
-    std::array<double, 2> ignored{};
-    return two_numbers(any_number).read(node, ignored);
-}
-
 }  // namespace drape::rows

@@ -5,6 +5,7 @@
 
 #include "scene/collider_rows.h"
 #include "scene/outline_rows.h"
+#include "scene/particle_rows.h"
 #include "scene/scene_rules.h"
 #include "world/frame_limit.h"
 
@@ -14,18 +15,6 @@ namespace {
 using namespace rows;
 
 constexpr std::string_view cloth_count = "an array of 1 to 1024 cloths";
-
-/// Reads a text that a rule takes up, or nobody.
-template <class Object>
-bool read_text(const SceneNode& node, Object&) {
-    std::string ignored;
-    return node.read(ignored);
-}
-
-const Named<IndexBox> one_particle{"particle", "[column, row], from 0, within the grid.", particle()};
-const Named<IndexBox> particles{
-    "particle_box", "First and last particle, inclusive; the first may not be beyond the last in column or row.",
-    particle_box(one_particle)};
 
 const Object<TimeSettings> time_settings{
     "time",
@@ -153,29 +142,6 @@ const Object<Stiffness> stiffness{
          "2002); 0.02 to 0.2 lets a coarse grid collapse. Sheared cloth, whose diagonals one way are pushed together, "
          "keeps (1 + compression)/2 of its shear stiffness."},
     }};
-
-const Object<Pin> pin{
-    "pin",
-    "Holds particles where they start or moves them along a path. Exactly one of edge, corner, at, box and point says "
-    "which.",
-    {
-        {"edge", &Pin::particles, without_default(choice<IndexBox>(edge_spellings)),
-         "All particles of a border: left is column 0, top is row 0."},
-        {"corner", &Pin::particles, without_default(choice<IndexBox>(corner_spellings)),
-         "One corner particle: left is column 0, top is row 0."},
-        {"at", &Pin::particles, one_particle, "One particle."},
-        {"box", &Pin::particles, particles, "All particles of a box."},
-        {"point", two_numbers(any_number).text, read_point,
-         "The particle that is nearest to a point [x, y] of the cloth's outline, metres."},
-        {"release", &Pin::release, optional(number(not_negative)),
-         "Seconds. From then on the particles are free and keep their velocity. Absent: never."},
-        {"path", &Pin::path, path, "Rigid motion of the particles relative to where they start. Absent: at rest."},
-        {"pivot", &Pin::pivot, optional<Vec3>(vec3),
-         "Metres: the point the path rotates about, which its translation takes along. Absent: the centroid of the "
-         "particles where they start, without those that a later pin holds."},
-    },
-    check_pin,
-    R"("oneOf": [{"required": ["edge"]}, {"required": ["corner"]}, {"required": ["at"]}, {"required": ["box"]}, {"required": ["point"]}])"};
 
 const Object<Appearance> appearance{"appearance",
                                     "For pictures only.",
@@ -314,6 +280,8 @@ const Object<Cloth> cloth{
          "Boxes of particles whose inner cells are missing; particles left without a cell are fixed and not drawn."},
         {"pins", &Cloth::pins, list<Pin>(pin, "an array of pins", 0, 1'000'000),
          "What holds the cloth. Of several pins of a particle only the last one counts."},
+        {"loads", &Cloth::loads, list<Load>(load, "an array of loads", 0, 1024),
+         "What pulls at the cloth or presses on it. Several loads of a particle add up."},
         {"appearance", &Cloth::appearance, appearance, "For pictures only."},
     },
     check_cloth};

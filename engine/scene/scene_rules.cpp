@@ -51,6 +51,7 @@ Value<std::vector<Key>> keys_in_time(const Value<Key>& key) {
     return keys;
 }
 template Value<std::vector<VectorKey>> keys_in_time(const Value<VectorKey>&);
+template Value<std::vector<NumberKey>> keys_in_time(const Value<NumberKey>&);
 template Value<std::vector<FactorKey>> keys_in_time(const Value<FactorKey>&);
 
 Value<MotionPath> motion_path(const Value<MotionKey>& key) {

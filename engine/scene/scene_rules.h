@@ -12,7 +12,7 @@ Value<std::string> file_name();
 /// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
-/// The keys of what changes, a VectorKey's or a FactorKey's, in the order of their times.
+/// The keys of what changes, a VectorKey's, a NumberKey's or a FactorKey's, in the order of their times.
 template <class Key>
 Value<std::vector<Key>> keys_in_time(const Value<Key>& key);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
@@ -79,7 +79,10 @@ bool check_mesh(const Members& members, Collider& collider);
 bool check_wind(const Members& members, Wind& wind);
 bool check_placement(const Members& members, Placement& placement);
 bool check_pin(const Members& members, Pin& pin);
-/// Checks a cloth, and finds the particles of its pins' edges and corners.
+bool check_load(const Members& members, Load& load);
+/// Takes the map of a load of a cloth whose grid is known.
+bool take_load_map(const SceneNode& load, const Cloth& cloth, Load& to);
+/// Checks a cloth, and finds the particles of its pins' and loads' edges and corners.
 bool check_cloth(const Members& members, Cloth& cloth);
 bool check_tear(const Members& members, Tear& tear);
 /// Checks that a cloth that tears has springs that bear something.

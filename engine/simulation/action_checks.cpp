@@ -36,6 +36,20 @@ void check_numbers(std::span<const double> numbers, const char* name, bool is_co
                               k / per_member);
 }
 
+/// A pressure has no direction.
+void check_pressures(std::span<const double> told, const SimulationModel& model, std::size_t member) {
+    std::size_t first = member * 3 * load_count(model);
+    for (const Cloth& cloth : model.scene.cloths)
+        for (const Load& load : cloth.loads) {
+            if (!told.empty() && load.presses() && (told[first + 1] != 0 || told[first + 2] != 0))
+                throw ActionError(fmt::format("actions: member {}: loads: number {} is {}, expected 0 after a pressure",
+                                              member, first % (3 * load_count(model)) + (told[first + 1] != 0 ? 1 : 2),
+                                              told[first + 1] != 0 ? told[first + 1] : told[first + 2]),
+                                  member);
+            first += 3;
+        }
+}
+
 /// A pin or hand of one cloth, in the step before and in this one.
 struct Holder {
     std::string name;
@@ -162,6 +176,12 @@ std::size_t pin_count(const SimulationModel& model) {
     return count;
 }
 
+std::size_t load_count(const SimulationModel& model) {
+    std::size_t count = 0;
+    for (const Cloth& cloth : model.scene.cloths) count += cloth.loads.size();
+    return count;
+}
+
 std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t index) {
     const std::int32_t* const grasp = &actions.grasps[numbers_of_grasp * index];
     if (grasp[0] < 0) return std::nullopt;
@@ -178,9 +198,13 @@ void check_actions(const EnsembleActions& actions, const EnsembleControls& contr
     check_numbers(actions.colliders, "colliders", controls.colliders, numbers_of_key * model.scene.colliders.size(),
                   count);
     check_numbers(actions.hands, "hands", hands > 0, numbers_of_key * hands, count);
+    check_numbers(actions.loads, "loads", controls.loads, 3 * load_count(model), count);
     check_list(actions.holds.size(), "holds", controls.holds, pins, count);
     check_list(actions.grasps.size(), "grasps", hands > 0, numbers_of_grasp * hands, count);
-    for (std::size_t number = 0; number < count; ++number) Hands(actions, *members[number], number).check();
+    for (std::size_t number = 0; number < count; ++number) {
+        Hands(actions, *members[number], number).check();
+        check_pressures(actions.loads, members[number]->model, number);
+    }
 }
 
 }  // namespace drape

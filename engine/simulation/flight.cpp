@@ -17,7 +17,7 @@ namespace {
 /// Fills the inputs of a member that takes no part in the submit to the size that they have with this number of
 /// substeps.
 void fill(const SimulationModel& model, std::uint32_t substeps, FrameInputs& inputs) {
-    inputs.wind.assign(model.windy ? substeps * (model.weighs ? 2u : 1u) : 0u, {});
+    inputs.wind.assign(substeps * weather_vectors(model), {});
     std::size_t records = 0;
     for (const std::vector<KeptCollider>& list : model.kept_colliders) records += list.size();
     inputs.colliders.assign(records, {});

@@ -13,11 +13,15 @@ MemberMotion::MemberMotion(const SimulationModel& model) : wind(model.scene.wind
     for (const ClothModel& cloth : model.cloths)
         pins.insert(pins.end(), cloth.dynamic_pins.begin(), cloth.dynamic_pins.end());
     for (const Collider& collider : model.scene.colliders) colliders.push_back(collider.path);
+    for (const Cloth& cloth : model.scene.cloths) loads.insert(loads.end(), cloth.loads.begin(), cloth.loads.end());
 }
 
 void MemberMotion::put_into(SimulationModel& model) const {
     model.scene.wind = wind;
     model.scene.gravity_keys = gravity;
+    auto load = loads.begin();
+    for (Cloth& cloth : model.scene.cloths)
+        for (Load& each : cloth.loads) each = *load++;
     auto pin = pins.begin();
     for (std::size_t k = 0; k < model.cloths.size(); ++k)
         for (DynamicPin& each : model.cloths[k].dynamic_pins) {

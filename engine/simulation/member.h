@@ -19,9 +19,21 @@ struct MemberMotion {
     template <class Archive>
     void transfer(Archive& archive) {
         archive(wind.velocity[0], wind.velocity[1], wind.velocity[2], wind.gust.amplitude);
-        for (std::vector<VectorKey>* keys : {&wind.keys, &gravity})
-            transfer_keys(archive, *keys,
+        const auto transfer_vectors = [&](std::vector<VectorKey>& keys) {
+            transfer_keys(archive, keys,
                           [&](VectorKey& key) { archive(key.time, key.value[0], key.value[1], key.value[2]); });
+        };
+        transfer_vectors(wind.keys);
+        transfer_vectors(gravity);
+        for (Load& load : loads) {
+            archive(load.force[0], load.force[1], load.force[2]);
+            transfer_vectors(load.force_keys);
+            bool constant = load.pressure.has_value();
+            double pressure = load.pressure.value_or(0);
+            archive(constant, pressure);
+            load.pressure = constant ? std::optional(pressure) : std::nullopt;
+            transfer_keys(archive, load.pressure_keys, [&](NumberKey& key) { archive(key.time, key.value); });
+        }
         for (DynamicPin& pin : pins) {
             transfer_path(archive, pin.path);
             transfer_path(archive, pin.let_go);
@@ -53,6 +65,7 @@ struct MemberMotion {
     static constexpr std::uint64_t most_keys = 1'000'000;
     Wind wind;
     std::vector<VectorKey> gravity;
+    std::vector<Load> loads;            ///< of all cloths
     std::vector<DynamicPin> pins;       ///< those pins of all cloths that can move, and the hands
     std::vector<MotionPath> colliders;  ///< sorted by kind
 };

@@ -50,14 +50,26 @@ class Acting {
         wind.keys.clear();
     }
 
-    /// The steps were made for the gravity of time 0, and bounds know the strongest that there was, so both stay among
-    /// the keys.
     void weigh() {
         if (actions_.gravity.empty()) return;
-        constexpr double soon = 1e-9;
         SceneDescription& scene = member_.model.scene;
-        const Vec3 start = gravity_at(scene, 0), strongest = strongest_gravity(scene);
-        scene.gravity_keys = {{0, start}, {soon, strongest}, {std::max(from_, 2 * soon), vector_of(actions_.gravity)}};
+        scene.gravity_keys =
+            keys_to<VectorKey>(vector_of(actions_.gravity), gravity_at(scene, 0), strongest_gravity(scene));
+    }
+
+    void load() {
+        std::size_t index = number_ * load_count(member_.model);
+        for (Cloth& cloth : member_.model.scene.cloths)
+            for (Load& each : cloth.loads) {
+                if (actions_.loads.empty()) return;
+                const Vec3 now{actions_.loads[3 * index], actions_.loads[3 * index + 1], actions_.loads[3 * index + 2]};
+                const double most = strongest(each);
+                if (each.presses())
+                    each.pressure_keys = keys_to<NumberKey>(now[0], pressure_at(each, 0), most);
+                else
+                    each.force_keys = keys_to<VectorKey>(now, force_at(each, 0), Vec3{most, 0, 0});
+                ++index;
+            }
     }
 
     void move_pins() {
@@ -88,6 +100,13 @@ class Acting {
     }
 
   private:
+    /// Returns keys of a value that is `now` from this step on. The steps were made for the value `start` of time 0,
+    /// and bounds know the strongest that there was, so both stay among them.
+    template <class Key, class Value>
+    std::vector<Key> keys_to(const Value& now, const Value& start, const Value& strongest) const {
+        constexpr double soon = 1e-9;
+        return {{0, start}, {soon, strongest}, {std::max(from_, 2 * soon), now}};
+    }
     Vec3 vector_of(std::span<const double> all) const {
         return {all[3 * number_], all[3 * number_ + 1], all[3 * number_ + 2]};
     }
@@ -140,12 +159,12 @@ class Acting {
 
 bool acts(const EnsembleControls& controls) {
     return controls.wind || controls.pins || controls.colliders || controls.holds || controls.gravity ||
-           !controls.hands.empty();
+           controls.loads || !controls.hands.empty();
 }
 
 bool is_any(const EnsembleActions& actions) {
     return !(actions.wind.empty() && actions.pins.empty() && actions.colliders.empty() && actions.holds.empty() &&
-             actions.gravity.empty() && actions.hands.empty() && actions.grasps.empty());
+             actions.gravity.empty() && actions.hands.empty() && actions.grasps.empty() && actions.loads.empty());
 }
 
 SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& controls) {
@@ -160,6 +179,8 @@ SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& co
                 collider.path.keys = {rest, rest};
                 collider.path.keys[1].time = 1;
             }
+    if (controls.loads && std::ranges::all_of(scene.cloths, [](const Cloth& cloth) { return cloth.loads.empty(); }))
+        throw Error("controls: loads: the scene has none: give its cloths some, of 0 N");
     for (const std::size_t cloth : controls.hands)
         if (cloth >= scene.cloths.size())
             throw Error(
@@ -180,6 +201,7 @@ void act(const EnsembleActions& actions, std::size_t number, Member& member) {
     Acting acting(actions, number, member);
     acting.blow();
     acting.weigh();
+    acting.load();
     acting.move_pins();
     acting.move_colliders();
 }

@@ -14,6 +14,8 @@ ModelOptions controlled(ModelOptions options, const EnsembleControls& controls);
 
 /// Returns the number of pins of all cloths.
 std::size_t pin_count(const SimulationModel& model);
+/// Returns the number of loads of all cloths.
+std::size_t load_count(const SimulationModel& model);
 /// Returns the particles that a hand is to hold, `index` counting those of all members; nothing: none.
 std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t index);
 

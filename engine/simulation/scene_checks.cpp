@@ -25,6 +25,7 @@ bool is_box_of(const IndexBox& box, const Cloth& cloth) {
 bool has_value(const VectorKey& key) {
     return std::ranges::all_of(key.value, [](double x) { return std::isfinite(x); });
 }
+bool has_value(const NumberKey& key) { return std::isfinite(key.value); }
 bool has_value(const FactorKey& key) { return key.factor >= 0.001 && key.factor <= 1; }
 
 template <class Key>
@@ -85,6 +86,26 @@ Fault fault_unless(bool fits, const char* expected) { return {fits ? "" : expect
 Fault fault_of_boxes(const Cloth& cloth, std::size_t count, const auto& box) {
     for (std::size_t k = 0; k < count; ++k)
         if (!is_box_of(box(k), cloth)) return {"particles of the grid", fmt::format("/{}", k)};
+    return {};
+}
+
+Fault fault_of_load(const Cloth& cloth, const Load& load) {
+    if (!is_box_of(load.particles, cloth)) return {"particles of the grid"};
+    if (!has_factors(std::size_t{cloth.grid[0]} * cloth.grid[1], load.factors, 0, 0x1p20f))
+        return {"a factor of at least 0 for every particle"};
+    if (!is_loaded(cloth, load)) return {"a particle with a cell and a factor above 0"};
+    const bool pulls = load.force != Vec3{} || !load.force_keys.empty();
+    return fault_unless(is_finite(load.force) && std::isfinite(load.pressure.value_or(0)) &&
+                            are_keys(load.force_keys) && are_keys(load.pressure_keys) && !(pulls && load.presses()),
+                        "either a finite force or a finite pressure, its keys at times that increase");
+}
+
+Fault fault_of_loads(const Cloth& cloth) {
+    for (std::size_t k = 0; k < cloth.loads.size(); ++k)
+        if (Fault fault = fault_of_load(cloth, cloth.loads[k]); !fault.expected.empty()) {
+            fault.below = fmt::format("/{}", k);
+            return fault;
+        }
     return {};
 }
 
@@ -175,6 +196,8 @@ Fault fault_of(const Cloth& cloth, ClothKey key) {
                                 "either a strain or a tension above 0, of springs that are not rigid");
         case ClothKey::pins:
             return fault_of_boxes(cloth, cloth.pins.size(), [&](std::size_t k) { return cloth.pins[k].particles; });
+        case ClothKey::loads:
+            return fault_of_loads(cloth);
         // The grid was judged before; of the others every value is right.
         case ClothKey::grid:
         case ClothKey::rest:

@@ -129,7 +129,7 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
     inputs_ = {};
     if (model_.windy)
         inputs_.wind = graph.buffer<glsl::vec4>(
-            "wind", model_.member_count * model_.most_substeps() * (model_.weighs ? 2 : 1), Lifetime::host_input);
+            "wind", model_.member_count * model_.most_substeps() * weather_vectors(model_), Lifetime::host_input);
     if (std::ranges::any_of(model_.cloths, &ClothModel::stiffens))
         inputs_.stiffness = graph.buffer<float>("stiffness", model_.cloths.size(), Lifetime::host_input);
     if (model_.compares_states())

@@ -4,6 +4,7 @@
 #include "cloth/cyclic_lines.h"
 #include "cloth/directions.h"
 #include "cloth/forces.h"
+#include "cloth/frame_inputs.h"
 #include "cloth/kernel_steps.h"
 #include "solver/step_size.h"
 
@@ -90,6 +91,7 @@ constexpr ConstantRow constant_rows[] = {
     {"impulse_rows", [](Place p) { return impulse_row_count(p.model.scene); }},
     {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
+    {"load_depth", [](Place p) { return p.cloth->model->load_depth; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
     {"looks_back", [](Place p) { return p.step.looks_back ? 1u : 0u; }},
@@ -111,6 +113,7 @@ constexpr ConstantRow constant_rows[] = {
     {"supporting", [](Place p) { return p.step.supporting || p.step.after_impulses ? 1u : 0u; }},
     {"tensions", known_tensions},
     {"turns", [](Place p) { return p.step.turns ? 1u : 0u; }},
+    {"weather_vectors", [](Place p) { return static_cast<std::uint32_t>(weather_vectors(p.model)); }},
     {"weighs", [](Place p) { return p.model.weighs ? 1u : 0u; }},
     {"wide", [](Place p) { return p.device.wide_atomics() ? 1u : 0u; }},
     {"windy", [](Place p) { return has(p, Field::wind_force) ? 1u : 0u; }},

@@ -40,6 +40,7 @@ enum class ClothKey {
     particle_friction,
     particle_thickness,
     pins,
+    loads,
     appearance
 };
 
@@ -49,17 +50,17 @@ inline constexpr std::string_view cloth_key_pointers[] = {
     "/outline",        "/areal_density", "/stiffness",      "/stiffness_keys", "/damping",       "/friction",
     "/thickness",      "/contact",       "/self_collision", "/velocity",       "/velocities",    "/holes",
     "/maps/stiffness", "/maps/density",  "/tear",           "/maps/tear",      "/maps/friction", "/maps/thickness",
-    "/pins",           "/appearance"};
+    "/pins",           "/loads",         "/appearance"};
 constexpr std::string_view pointer_of(ClothKey key) { return cloth_key_pointers[static_cast<std::size_t>(key)]; }
 
 /// Returns references to all members, in their order. The binding names each member, so a new one does not compile.
 inline auto members_of(const Cloth& cloth) {
     const auto& [name, grid, size, placement, start, rest, panel, areal_density, stiffness, stiffness_keys, damping,
                  friction, thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness,
-                 cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, appearance] = cloth;
+                 cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, loads, appearance] = cloth;
     return std::tie(name, grid, size, placement, start, rest, panel, areal_density, stiffness, stiffness_keys, damping,
                     friction, thickness, contact, self_collision, velocity, velocities, holes, cell_stiffness,
-                    cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, appearance);
+                    cell_density, tear, cell_tear, particle_friction, particle_thickness, pins, loads, appearance);
 }
 inline constexpr std::size_t cloth_key_count = std::tuple_size_v<decltype(members_of(std::declval<Cloth>()))>;
 static_assert(std::size(cloth_key_pointers) == cloth_key_count);

@@ -215,6 +215,17 @@ std::vector<bool> particles_of_cells(const Cloth& cloth) {
     return has_cell;
 }
 
+bool is_loaded(const Cloth& cloth, const Load& load) {
+    const std::vector<bool> has_cell = particles_of_cells(cloth);
+    const auto& [first, last] = load.particles;
+    for (std::uint32_t row = first[1]; row <= last[1]; ++row)
+        for (std::uint32_t column = first[0]; column <= last[0]; ++column) {
+            const std::size_t particle = std::size_t{row} * cloth.grid[0] + column;
+            if (has_cell[particle] && (load.factors.empty() || load.factors[particle] > 0)) return true;
+        }
+    return false;
+}
+
 bool leaves_a_cell(const Cloth& cloth) {
     const std::size_t columns = cloth.grid[0] - 1, rows = cloth.grid[1] - 1;
     if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > scene_particle_limit) return true;  // another error reports it

@@ -23,6 +23,9 @@ std::vector<bool> missing_cells(const Cloth& cloth);
 /// Returns by particle whether a cell is beside it. Other particles take part in nothing.
 std::vector<bool> particles_of_cells(const Cloth& cloth);
 
+/// Returns whether a load acts on any particle that has a cell.
+bool is_loaded(const Cloth& cloth, const Load& load);
+
 /// Returns whether the holes leave any cell.
 bool leaves_a_cell(const Cloth& cloth);
 

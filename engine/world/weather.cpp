@@ -1,6 +1,7 @@
 #include "world/weather.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "base/vectors.h"
@@ -30,6 +31,16 @@ Around<Key> around(const std::vector<Key>& keys, double time) {
     return {from, *later, (time - from.time) / (later->time - from.time)};
 }
 
+/// Returns whether the value that keys have (`at`) is the same from one time to another.
+template <class Key, class Value>
+bool keeps(const std::vector<Key>& keys, double from, double to, const Value& at) {
+    if (keys.empty()) return true;
+    const auto first = at(from);
+    return first == at(to) && std::ranges::all_of(keys, [&](const Key& key) {
+               return key.time <= from || key.time >= to || key.value == first;
+           });
+}
+
 }  // namespace
 
 Vec3 value_at(const std::vector<VectorKey>& keys, const Vec3& steady, double time) {
@@ -40,6 +51,25 @@ Vec3 value_at(const std::vector<VectorKey>& keys, const Vec3& steady, double tim
     return value;
 }
 
+double value_at(const std::vector<NumberKey>& keys, double steady, double time) {
+    if (keys.empty()) return steady;
+    const auto [from, to, share] = around(keys, time);
+    return from.value + share * (to.value - from.value);
+}
+
+Vec3 force_at(const Load& load, double time) { return value_at(load.force_keys, load.force, time); }
+
+double pressure_at(const Load& load, double time) {
+    return value_at(load.pressure_keys, load.pressure.value_or(0), time);
+}
+
+double strongest(const Load& load) {
+    if (!load.presses()) return length(strongest(load.force_keys, load.force));
+    double most = load.pressure_keys.empty() ? std::abs(*load.pressure) : 0;
+    for (const NumberKey& key : load.pressure_keys) most = std::max(most, std::abs(key.value));
+    return most;
+}
+
 double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::uint32_t frame) {
     if (cloth.stiffness_keys.empty()) return 1;
     const double middle = frame == 0 ? 0 : (frame - 0.5) / scene.time.fps;
@@ -48,11 +78,11 @@ double stiffness_factor(const SceneDescription& scene, const Cloth& cloth, std::
 }
 
 bool is_steady(const std::vector<VectorKey>& keys, double from, double to) {
-    if (keys.empty()) return true;
-    const Vec3 first = value_at(keys, {}, from);
-    return first == value_at(keys, {}, to) && std::ranges::all_of(keys, [&](const VectorKey& key) {
-               return key.time <= from || key.time >= to || key.value == first;
-           });
+    return keeps(keys, from, to, [&](double time) { return value_at(keys, {}, time); });
+}
+
+bool is_steady(const std::vector<NumberKey>& keys, double from, double to) {
+    return keeps(keys, from, to, [&](double time) { return value_at(keys, 0, time); });
 }
 
 Vec3 gravity_at(const SceneDescription& scene, double time) {
@@ -64,10 +94,28 @@ bool gravity_changes(const SceneDescription& scene) {
            scene.gravity_keys.end();
 }
 
-bool has_weather(const SceneDescription& scene) { return scene.wind.blows() || gravity_changes(scene); }
+bool has_weather(const SceneDescription& scene) {
+    return scene.wind.blows() || gravity_changes(scene) ||
+           std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return !cloth.loads.empty(); });
+}
 
 Vec3 strongest_gravity(const SceneDescription& scene) { return strongest(scene.gravity_keys, scene.gravity); }
 
-Vec3 strongest_wind(const Wind& wind) { return strongest(wind.keys, wind.velocity); }
+double fastest_steady_wind(const Wind& wind) {
+    const Vec3 fastest = strongest(wind.keys, wind.velocity);
+    return std::hypot(fastest[0], fastest[1], fastest[2]);
+}
+
+double fastest_wind(const Wind& wind) {
+    return wind.blows() ? fastest_steady_wind(wind) + std::abs(wind.gust.amplitude) : 0;
+}
+
+bool weather_stays(const SceneDescription& scene, double from, double to) {
+    if (has_weather(scene) && scene.wind.gust.amplitude != 0) return false;
+    for (const Cloth& cloth : scene.cloths)
+        for (const Load& load : cloth.loads)
+            if (!is_steady(load.force_keys, from, to) || !is_steady(load.pressure_keys, from, to)) return false;
+    return is_steady(scene.wind.keys, from, to) && is_steady(scene.gravity_keys, from, to);
+}
 
 }  // namespace drape

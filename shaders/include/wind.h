@@ -134,6 +134,36 @@ SHARED vec3 add_weight(vec3 sum, vec3 gravity, float inner_mass, float inverse_m
     return inverse_mass > 0.0f ? total : sum;
 }
 
+/// Returns the area vector of a particle's quarters of cells, m^2, which points to the front. Quarters that face each
+/// other are added first (particle_wind_force). An edge to a neighbour that is cut off is that on the other side, turned
+/// round; what is a thread or a crumb has no side.
+SHARED vec3 area_vector(AirEdges edges, uint air) {
+    bool left = (air & air_left) != 0u, right = (air & air_right) != 0u;
+    bool up = (air & air_up) != 0u, down = (air & air_down) != 0u;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    vec3 to_left = left ? edges.left : right ? -edges.right : none, to_right = right ? edges.right : -to_left;
+    vec3 to_up = up ? edges.up : down ? -edges.down : none, to_down = down ? edges.down : -to_up;
+    vec3 up_left = (air & air_up_left) != 0u ? ordered_cross(to_left, to_up) : empty_sum();
+    vec3 up_right = (air & air_up_right) != 0u ? ordered_cross(to_up, to_right) : empty_sum();
+    vec3 down_left = (air & air_down_left) != 0u ? ordered_cross(to_down, to_left) : empty_sum();
+    vec3 down_right = (air & air_down_right) != 0u ? ordered_cross(to_right, to_down) : empty_sum();
+    precise vec3 area = ((up_left + down_right) + (up_right + down_left)) * 0.25f;
+    return area;
+}
+
+/// Returns `sum` plus what a load gives to a particle with this area vector: `load` is its force, N, and beside it its
+/// pressure, Pa; `share` the particle's share of the force, after the load's number, and the factor of the pressure.
+SHARED vec3 add_load(vec3 sum, vec4 load, vec4 share, vec3 area) {
+    precise vec3 total = sum + (vec3(load.x, load.y, load.z) * share.y + area * (load.w * share.z));
+    return total;
+}
+
+/// Returns the force on a particle with what loads give to it, unless it is held: pins bear that.
+SHARED vec3 with_loads(vec3 force, vec3 by_loads, float inverse_mass) {
+    precise vec3 total = force + by_loads;
+    return inverse_mass > 0.0f ? total : force;
+}
+
 /// Returns `sum` plus a triangle's area vector (twice its area times its normal).
 SHARED vec3 add_area_vector(vec3 sum, vec3 p0, vec3 p1, vec3 p2) {
     precise vec3 total = sum + ordered_cross(p1 - p0, p2 - p0);

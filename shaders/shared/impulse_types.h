@@ -17,7 +17,8 @@ const int impulse_head = 0;      // the first texel is impulse_units, as a float
 const int impulse_momentum = 1;  // what the frame changed the momentum by, then by how far it moved free particles
 const int impulse_air = 2;       // by air
 const int impulse_cloths = 3;    // by contact with other cloths
-const int impulse_first = 4;     // by the first collider
+const int impulse_loads = 4;     // by loads
+const int impulse_first = 5;     // by the first collider
 
 /// Units of the sum of how far free particles moved, by mass: to a metre of an inner particle.
 const float travel_units = 1073741824.0f;

@@ -95,6 +95,8 @@ struct WindPush {
     vec2 spacing;            // m, of particles along columns, rows
     int first;               // index of the first substep's wind, of the cloth's own scene
     float inner_mass;        // kg, of an inner particle
+    int first_load;          // of the cloth, among those of its scene
+    int unused;
 };
 
 /// Bits of what the air acts on at a particle: its quarters of the cells up left, up right, down left and down right,

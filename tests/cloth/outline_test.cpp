@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cloth/grid.h"
+#include "cloth/loads.h"
 #include "drape/scene_reader.h"
 #include "world/panel.h"
 #include "world/start.h"
@@ -175,6 +176,20 @@ TEST(OutlineTest, WhatDoesNotFitIsSaid) {
     EXPECT_THAT(error_of("\"grid\": [9, 9], \"pins\": [{\"point\": [0, 0]}]"), HasSubstr("a cloth with an outline"));
     EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"pins\": [{\"point\": [0, 0], \"at\": [1, 1]}]")),
                 HasSubstr("exactly one of edge, corner, at, box and point"));
+}
+
+/// A force on all of a cloth moves it as a whole: each particle has as much of it as of the mass.
+TEST(OutlineTest, AForceIsSharedByArea) {
+    Cloth cloth = cloth_of(ring, 0.03);
+    const auto [dx, dy] = grid_spacing(cloth);
+    const Grid grid(cloth);
+    const std::vector<double> shares =
+        force_shares(grid, {.particles = {{0, 0}, {grid.columns() - 1, grid.rows() - 1}}});
+    for (std::uint32_t row = 0; row < grid.rows(); ++row)
+        for (std::uint32_t column = 0; column < grid.columns(); ++column) {
+            const double mass = 0.25 * grid.cell_masses(column, row) * cloth.areal_density * dx * dy;
+            EXPECT_NEAR(shares[grid.particle(column, row)], mass / (0.2 * area(cloth)), 1e-6);
+        }
 }
 
 TEST(OutlineTest, MapsScaleItsCells) {

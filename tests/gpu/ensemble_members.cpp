@@ -117,6 +117,12 @@ void expect_each_as_alone(const std::vector<SceneDescription>& scenes, std::uint
                 ASSERT_EQ(own.potential_energy, other.potential_energy) << where;
                 ASSERT_EQ(own.stretch_error_rms, other.stretch_error_rms) << where;
                 ASSERT_EQ(own.penetration, other.penetration) << where;
+                ASSERT_EQ(own.forces.size(), other.forces.size()) << where;
+                for (std::size_t by = 0; by < own.forces.size(); ++by) {
+                    ASSERT_EQ(own.forces[by].by, other.forces[by].by) << where;
+                    ASSERT_EQ(own.forces[by].force, other.forces[by].force) << where << ", " << own.forces[by].by;
+                    ASSERT_EQ(own.forces[by].moment, other.forces[by].moment) << where << ", " << own.forces[by].by;
+                }
             }
             SCOPED_TRACE(where);
             if (!one.failure) expect_same_proof(ensemble.self_contact(k), alone[k].simulation.self_contact());

@@ -1,6 +1,7 @@
 // The sums of a frame's impulses on the device equal the twin's bit for bit (lavapipe).
 #include <gtest/gtest.h>
 
+#include "support/loads.h"
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 
@@ -30,6 +31,30 @@ TEST_P(TwinForcesTest, SeveralPinsOfClothsWithHolesInFlight) {
     scene.cloths[0].holes = {{{10, 5}, {20, 12}}};
     scene.cloths[0].stiffness.compression = 0.1;
     test::add_second_cloth(scene);
+    compare(scene);
+}
+
+std::vector<Load> some_loads() {
+    std::vector<Load> loads{test::pull({{2, 2}, {9, 7}}, Vec3{0.3, -0.2, 0.1}),
+                            test::pull({{9, 7}, {9, 7}}, std::vector<VectorKey>{{0, {0, 0, 0}}, {0.1, {0, 0, 0.2}}}),
+                            test::press({{0, 0}, {9, 9}}, 3)};
+    return loads;
+}
+
+TEST_P(TwinForcesTest, LoadsInTheWind) {
+    SceneDescription scene = telling_forces(test::everything(), GetParam());
+    scene.gravity_keys = {{0.02, {0, -9.81, 0}}, {0.25, {-4, 3, 0}}};
+    scene.cloths[0].loads = some_loads();
+    compare(scene);
+}
+
+TEST_P(TwinForcesTest, LoadsOfOneOfTwoClothsWithHoles) {
+    SceneDescription scene = telling_forces(test::everything(), GetParam());
+    scene.wind = {};
+    scene.colliders.clear();
+    scene.cloths[0].holes = {{{4, 3}, {8, 8}}};
+    test::add_second_cloth(scene);
+    scene.cloths[1].loads = some_loads();
     compare(scene);
 }
 

@@ -493,6 +493,18 @@ class Examples(unittest.TestCase):
             simulation.step()
         self.assertTrue(np.isfinite(simulation.positions("cape")).all())
 
+    def test_drop_test(self):
+        said, files = self.run_example("drop_test.py", "0.3")
+        weight, bears = (float(re.search(what, said)[1]) for what in (r"a sheet of (\S+) N", r"the bar bears (\S+) N"))
+        self.assertAlmostEqual(weight, 0.3 * 0.8 * 0.6 * 9.81, places=2)
+        self.assertAlmostEqual(float(re.search(r"after (\S+) s", said)[1]), (2 * 0.3 / 9.81) ** 0.5, delta=0.01)
+        self.assertGreater(float(re.search(r"with (\S+) N", said)[1]), weight)
+        self.assertGreater(bears, 0)
+        impulse, change = (float(each) for each in re.search(r"gave (\S+) N s.* by (\S+) kg", said).groups())
+        self.assertLess(abs(impulse - change), 1e-4 * weight)  # in a second
+        self.assertGreater(files["drop_test.csv"], 10000)
+        self.assertGreater(files["drop_test.svg"], 1000)
+
     def test_fit_swing(self):
         said, _ = self.run_example("fit_swing.py", "16", "3")
         off = [float(each) for each in re.findall(r"the edge is ([\d.]+) mm off", said)]

@@ -4,84 +4,19 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
-#include <string>
 #include <vector>
 
-#include "base/vectors.h"
-#include "cloth/cloth_statistics.h"
-#include "cloth/frame_inputs.h"
-#include "drape/scene_reader.h"
-#include "support/sheets.h"
-#include "twin/statistics.h"
-#include "twin/twin.h"
+#include "simulated.h"
+#include "support/loads.h"
 
 namespace drape {
 namespace {
 
-constexpr SolverMethod all_methods[] = {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps};
-
-/// Simulates a scene by the twin and tells the statistics of each frame.
-class Simulated {
-  public:
-    explicit Simulated(SceneDescription scene) : model_(with_forces(std::move(scene))), twin_(model_) {}
-
-    void frames(std::uint32_t count) {
-        for (std::uint32_t k = 0; k < count; ++k) twin_.run_frame(++frame_);
-    }
-    ClothStatistics statistics(std::size_t cloth = 0) {
-        const TwinCloth& state = twin_.cloth(cloth);
-        const FrameInputs inputs = frame_inputs(model_, frame_);
-        return cloth_statistics(model_, model_.cloths[cloth], twin_statistics(model_, cloth, state, inputs), frame_,
-                                std::as_bytes(std::span(state.integers(Field::impulses))));
-    }
-    Vec3 force(const std::string& by) { return of(by).force; }
-    Vec3 moment(const std::string& by) { return of(by).moment.value(); }
-    double weight() { return statistics().mass * 9.81; }
-    double frame_time() const { return 1 / model_.scene.time.fps; }
-    const SimulationModel& model() const { return model_; }
-    const Twin& twin() const { return twin_; }
-
-  private:
-    static SceneDescription with_forces(SceneDescription scene) {
-        scene.forces = true;
-        return scene;
-    }
-    ForceOnCloth of(const std::string& by) {
-        for (const ForceOnCloth& each : statistics().forces)
-            if (each.by == by) return each;
-        ADD_FAILURE() << "no force by " << by;
-        return {};
-    }
-
-    SimulationModel model_;
-    Twin twin_;
-    std::uint32_t frame_ = 0;
-};
-
-SceneDescription by_method(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
-    scene.solver.method = method;
-    scene.solver.substeps = method == SolverMethod::explicit_steps ? 10 * substeps : substeps;
-    return scene;
-}
-
-/// A level sheet of 9 x 9 particles and 0.4 m a side about the origin, at a height.
-SceneDescription level_sheet(double height, double damping) {
-    SceneDescription scene = test::sheet(9, 9, 0.4, 0.4, 8);
-    Cloth& cloth = scene.cloths[0];
-    cloth.pins.clear();
-    cloth.stiffness = {false, 1000, 100, 0};
-    cloth.placement = {{-0.2, height, -0.2}, {1, 0, 0}, {0, 0, 1}};
-    cloth.damping = damping;
-    cloth.friction = 0.3;
-    cloth.thickness = 0.004;
-    return scene;
-}
-
-void expect_near(const Vec3& force, const Vec3& expected, double bound, const char* what) {
-    const double off = length(minus(force, expected)) / length(expected);
-    std::printf("[ measured ] %s: off by %.1e\n", what, off);
-    EXPECT_LT(off, bound) << what;
-}
+using test::all_methods;
+using test::by_method;
+using test::expect_near;
+using test::level_sheet;
+using test::Simulated;
 
 class ForcesTest : public testing::TestWithParam<SolverMethod> {};
 
@@ -203,6 +138,11 @@ SceneDescription drawn_with_forces(std::mt19937& random) {
         cloth.pins[0].path.keys = {{0, {0, 0, 0}, {}}, {0.3, {between(-0.2, 0.2), 0.1, 0}, {0, 20, 0}}};
     if (!cloth.pins.empty() && whether()) cloth.pins[1].release = between(0.05, 0.3);
     if (whether()) scene.wind.velocity = {between(-5, 5), between(-5, 5), between(-5, 5)};
+    if (whether()) {
+        cloth.loads = {test::pull({{2, 2}, {8, 8}}, Vec3{between(-1, 1), between(-1, 1), between(-1, 1)}),
+                       test::press({{0, 0}, {8, 8}}, between(-5, 5)),
+                       test::pull({{8, 8}, {8, 8}}, std::vector<VectorKey>{{0, {0, 0, 0}}, {0.2, {0, -1, 0.5}}})};
+    }
     if (whether()) scene.colliders.push_back({Plane{}, 0.4});
     if (whether()) scene.colliders.push_back({Box{{0.1, 0, 0}, {0.1, 0.1, 0.1}}, 0.4, {10, 30, 0}});
     if (whether()) scene.colliders.push_back({Sphere{{-0.1, 0, 0.1}, 0.1}, 0.4});

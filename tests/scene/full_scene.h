@@ -25,6 +25,10 @@ inline constexpr const char* full_scene =
               {"at": [10, 3], "pivot": [7, 8, 9],
                "path": [{"t": 0, "translate": [0, 0, 0]}, {"t": 1.5, "translate": [0.2, 0, 0.1], "rotate": [0, 720, 5]}]},
               {"box": [[1, 2], [3, 4]]}],
+     "loads": [{"edge": "right", "force": [1, 2, -3]},
+               {"force_keys": [{"t": 0, "force": [0, 0, 0]}, {"t": 0.5, "force": [0, 0, 4]}]},
+               {"at": [5, 6], "pressure": -2.5},
+               {"box": [[1, 2], [3, 4]], "pressure_keys": [{"t": 0, "pressure": 0}, {"t": 1, "pressure": 7}]}],
      "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
     {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"},
     {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "rest": "start", "start": ")json" DRAPE_SOURCE_DIR
@@ -38,7 +42,8 @@ inline constexpr const char* full_scene =
               "tear": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "tear_range": [0.25, 1.5],
               "friction": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png", "friction_range": [0, 2],
               "thickness": ")json" DRAPE_SOURCE_DIR
-    R"json(/tests/scene/given/cells.png", "thickness_range": [0.5, 2]}}],
+    R"json(/tests/scene/given/cells.png", "thickness_range": [0.5, 2]},
+     "loads": [{"pressure": 3, "map": ")json" DRAPE_SOURCE_DIR R"json(/tests/scene/given/cells.png"}]}],
   "colliders": {
     "planes": [{"normal": [0, 0, 2], "offset": -0.5, "friction": 0.6, "rotate": [1, 2, 3], "color": [0.1, 0.1, 0.2],
                 "path": [{"t": 0}]}],

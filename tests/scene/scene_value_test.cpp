@@ -75,6 +75,25 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(scene.cloths[1].name, "rigid-one");
 }
 
+TEST(SceneValues, LoadsOfTheFullScene) {
+    const SceneDescription scene = scene_of(testing::full_scene);
+    const std::vector<Load>& loads = scene.cloths[0].loads;
+    ASSERT_EQ(loads.size(), 4u);
+    EXPECT_EQ(loads[0].particles, (IndexBox{{95, 0}, {95, 63}}));
+    EXPECT_EQ(loads[0].force, (Vec3{1, 2, -3}));
+    EXPECT_FALSE(loads[0].presses());
+    EXPECT_EQ(loads[1].particles, (IndexBox{{0, 0}, {95, 63}})) << "all, where nothing says which";
+    EXPECT_EQ(loads[1].force_keys, (std::vector<VectorKey>{{0, {0, 0, 0}}, {0.5, {0, 0, 4}}}));
+    EXPECT_EQ(loads[2].particles, (IndexBox{{5, 6}, {5, 6}}));
+    EXPECT_EQ(loads[2].pressure, -2.5);
+    EXPECT_EQ(loads[3].particles, (IndexBox{{1, 2}, {3, 4}}));
+    EXPECT_EQ(loads[3].pressure_keys, (std::vector<NumberKey>{{0, 0}, {1, 7}}));
+    EXPECT_TRUE(loads[3].presses());
+    // Particles lie on the corners of its pixels.
+    ASSERT_EQ(scene.cloths[3].loads[0].factors.size(), 15u);
+    EXPECT_EQ(scene.cloths[3].loads[0].factors[1], 0.5f);
+}
+
 TEST(SceneValues, FullScenesHaveEveryKeyOfACloth) {
     std::array<bool, cloth_key_count> set{};
     std::vector<Cloth> cloths = scene_of(testing::full_scene).cloths;

@@ -140,10 +140,11 @@ void run_stiffness(const TwinPlace& where) {
 
 void run_wind(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
-    const std::size_t own = step.substep * std::size_t{scene.weighs ? 2u : 1u};
+    const std::size_t own = step.substep * weather_vectors(scene);
     const vec3 velocity = xyz(inputs.wind[own]);
     const bool advance = step.substep > 0;
     const WindPush& push = model.wind;
+    const std::size_t first_load = own + (scene.weighs ? 2 : 1) + static_cast<std::size_t>(push.first_load);
     TwinImpulses impulses(state);
     const auto now = [&](std::size_t index) {
         const vec3 start = xyz(state[Field::position][index]);
@@ -160,6 +161,7 @@ void run_wind(const TwinPlace& where) {
             AirEdges edges{edge_to(x - 1, y), edge_to(x + 1, y), edge_to(x, y - 1), edge_to(x, y + 1)};
             const vec3 relative = relative_wind(velocity, xyz(state[Field::displacement][particle]), push.inverse_step);
             uint air = border_air({x, y}, push.grid);
+            const AirEdges all_edges = edges;
             if (state.topology.masked()) {
                 air = air_of(state.topology, x, y);
                 edges = own_edges(edges, air, relative, push.spacing);
@@ -169,6 +171,19 @@ void run_wind(const TwinPlace& where) {
             if (impulses.are_wanted())
                 impulses.add(impulse_air, 0, sum.force,
                              units_per_newton(impulses.units(), push.inverse_step, push.inner_mass));
+            if (model.load_depth > 0) {
+                vec3 loaded = empty_sum();
+                const vec3 area = area_vector(all_edges, air);
+                for (std::size_t k = particle * model.load_depth; k < (particle + 1) * model.load_depth; ++k) {
+                    const vec4 share = model.loads[k];
+                    if (share.x < 0) break;
+                    loaded = add_load(loaded, inputs.wind[first_load + static_cast<std::size_t>(share.x)], share, area);
+                }
+                if (impulses.are_wanted())
+                    impulses.add(impulse_loads, 0, loaded,
+                                 units_per_newton(impulses.units(), push.inverse_step, push.inner_mass));
+                sum.force = with_loads(sum.force, loaded, state[Field::position][particle].w);
+            }
             if (scene.weighs)
                 sum.force = add_weight(sum.force, xyz(inputs.wind[own + 1]), push.inner_mass,
                                        state[Field::position][particle].w);

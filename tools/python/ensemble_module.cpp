@@ -18,7 +18,7 @@ using Places = py::array_t<std::int64_t, py::array::c_style | py::array::forceca
 
 /// What step() is given.
 struct Told {
-    std::optional<Numbers> wind, pins, colliders, gravity, hands;
+    std::optional<Numbers> wind, pins, colliders, gravity, hands, loads;
     std::optional<Choices> holds;
     std::optional<Places> grasps;
 };
@@ -63,8 +63,10 @@ EnsembleControls controls_of(const std::vector<std::string>& names, const SceneD
             controls.holds = true;
         else if (name == "gravity")
             controls.gravity = true;
+        else if (name == "loads")
+            controls.loads = true;
         else
-            throw py::value_error("controls are wind, pins, colliders, holds and gravity, not '" + name + "'");
+            throw py::value_error("controls are wind, pins, colliders, holds, gravity and loads, not '" + name + "'");
     }
     return controls;
 }
@@ -84,20 +86,24 @@ class PyEnsemble {
 
     void step(const Told& told) {
         const SceneDescription& scene = ensemble_->scene(0);
-        std::size_t pin_count = 0;
-        for (const Cloth& cloth : scene.cloths) pin_count += cloth.pins.size();
-        std::vector<double> wind, pins, colliders, gravity, hands;
+        std::size_t pin_count = 0, load_count = 0;
+        for (const Cloth& cloth : scene.cloths) {
+            pin_count += cloth.pins.size();
+            load_count += cloth.loads.size();
+        }
+        std::vector<double> wind, pins, colliders, gravity, hands, loads;
         if (told.wind) wind = numbers(*told.wind, "wind", {3}, 0);
         if (told.gravity) gravity = numbers(*told.gravity, "gravity", {3}, 0);
         if (told.pins) pins = numbers(*told.pins, "pins", {pin_count}, 6);
         if (told.colliders) colliders = numbers(*told.colliders, "colliders", {scene.colliders.size()}, 6);
         if (told.hands) hands = numbers(*told.hands, "hands", {hand_count_}, 6);
+        if (told.loads) loads = numbers(*told.loads, "loads", {load_count}, 3);
         std::vector<std::uint8_t> holds;
         if (told.holds) holds = choices(*told.holds, pin_count);
         std::vector<std::int32_t> grasps;
         if (told.grasps) grasps = places(*told.grasps);
         const py::gil_scoped_release released;
-        ensemble_->step({wind, pins, colliders, holds, gravity, hands, grasps});
+        ensemble_->step({wind, pins, colliders, holds, gravity, hands, grasps, loads});
     }
 
     std::vector<std::uint8_t> choices(const Choices& array, std::size_t pin_count) const {
@@ -133,9 +139,12 @@ class PyEnsemble {
         const std::size_t last = array.ndim() > 0 ? extent(array.ndim() - 1) : 0;
         if (array.ndim() != (has_key ? 3 : 2) || extent(0) != ensemble_->size() || extent(1) != shape[0] ||
             (has_key && last != 3 && last != key))
-            throw ActionError(fmt::format("actions: {}: expected an array [{}, {}{}]", name, ensemble_->size(),
-                                          shape[0], has_key ? ", 3 or 6" : ""),
-                              0);
+            throw ActionError(
+                fmt::format("actions: {}: expected an array [{}, {}{}]", name, ensemble_->size(), shape[0],
+                            !has_key   ? ""
+                            : key == 3 ? ", 3"
+                                       : ", 3 or 6"),
+                0);
         if (!has_key || last == key) return {array.data(), array.data() + array.size()};
         std::vector<double> all(ensemble_->size() * shape[0] * key);
         for (std::size_t k = 0; k < ensemble_->size() * shape[0]; ++k)
@@ -277,7 +286,8 @@ void define_ensemble(py::module_& module) {
             py::arg("view") = "shaded", py::arg("validate") = false,
             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
-            "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity'. hands: how "
+            "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity', 'loads'. "
+            "hands: how "
             "many "
             "hands take particles of the first cloth, or the cloth of each. All begin at frame 0.")
         .def(
@@ -285,19 +295,21 @@ void define_ensemble(py::module_& module) {
             [](PyEnsemble& self, const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
                const std::optional<Numbers>& colliders, const std::optional<Choices>& holds,
                const std::optional<Numbers>& gravity, const std::optional<Numbers>& hands,
-               const std::optional<Places>& grasps) {
-                self.step({wind, pins, colliders, gravity, hands, holds, grasps});
+               const std::optional<Places>& grasps, const std::optional<Numbers>& loads) {
+                self.step({wind, pins, colliders, gravity, hands, loads, holds, grasps});
             },
             py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
             py::arg("colliders") = py::none(), py::arg("holds") = py::none(), py::arg("gravity") = py::none(),
-            py::arg("hands") = py::none(), py::arg("grasps") = py::none(),
+            py::arg("hands") = py::none(), py::arg("grasps") = py::none(), py::arg("loads") = py::none(),
             "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
             "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
             "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
             "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
             "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
-            "and last column and row, in the order column, row, column, row; -1: none. "
+            "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
+            "a load "
+            "that presses Pa, 0, 0, during the step. "
             "What is not given stays as it is. Raises ActionError, and then no member went on.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(

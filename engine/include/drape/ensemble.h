@@ -22,6 +22,7 @@ struct EnsembleControls {
     bool colliders = false;  ///< every collider may be moved
     bool holds = false;      ///< every pin may let go and take again
     bool gravity = false;    ///< gravity may change
+    bool loads = false;      ///< the loads of the scenes, which must have some, may change
     /// Hands, which no scene has, may take particles: the cloth (by number) whose particles each can take. They hold
     /// nothing at first.
     std::vector<std::size_t> hands = {};
@@ -56,6 +57,9 @@ struct EnsembleActions {
     /// step; all -1: none. It takes them as `holds` says, from the start of the step on. A hand lets go before it takes
     /// others, and takes none that a pin or another hand holds, or lets go in this step.
     std::span<const std::int32_t> grasps;
+    /// [member, load, 3]: what the loads of all cloths, in order, give during the step: N; of one that presses Pa and
+    /// two zeros. The scene's keys of them are over.
+    std::span<const double> loads;
 };
 
 /// Thrown for actions that cannot be taken, before any member goes on.

@@ -50,6 +50,13 @@ struct VectorKey {
     bool operator==(const VectorKey&) const = default;
 };
 
+/// One key of a number that changes.
+struct NumberKey {
+    double time = 0.0;  ///< s
+    double value = 0.0;
+    bool operator==(const NumberKey&) const = default;
+};
+
 /// One key of a factor that changes.
 struct FactorKey {
     double time = 0.0;  ///< s
@@ -172,6 +179,21 @@ struct Pin {
     bool operator==(const Pin&) const = default;
 };
 
+/// What pulls at particles of a cloth, in a direction that does not turn with it, or presses on one of its sides. One
+/// of the two is given, as a number or as keys (world/weather.h).
+struct Load {
+    IndexBox particles;
+    Vec3 force{0, 0, 0};                ///< N: on all of its particles together, which share it by their areas
+    std::vector<VectorKey> force_keys;  ///< N, strictly increasing in time
+    std::optional<double> pressure;     ///< Pa: pushes towards the front, u x v; below 0 towards the back
+    std::vector<NumberKey> pressure_keys;
+    /// Factors of every particle of the cloth, row by row, at least 0; empty: 1. A force is shared by area times
+    /// factor.
+    std::vector<float> factors;
+    bool presses() const { return pressure || !pressure_keys.empty(); }
+    bool operator==(const Load&) const = default;
+};
+
 enum class Pattern { plain, checker, stripes };
 inline constexpr Spelling<Pattern> pattern_spellings[] = {
     {"plain", Pattern::plain}, {"checker", Pattern::checker}, {"stripes", Pattern::stripes}};
@@ -242,6 +264,7 @@ struct Cloth {
     /// most 1, and the cloth's friction, also that between layers, is of a particle with the factor 1.
     std::vector<float> particle_friction, particle_thickness;
     std::vector<Pin> pins;
+    std::vector<Load> loads;
     Appearance appearance;
     bool operator==(const Cloth&) const = default;
 };
