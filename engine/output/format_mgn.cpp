@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "output/frame_table.h"
 #include "output/frame_writer.h"
 #include "output/npy.h"
 #include "output/zip_file.h"
@@ -15,7 +16,7 @@ constexpr std::int32_t normal_node = 0, obstacle_node = 1, handle_node = 3;  // 
 class Trajectory : public FrameWriter {
   public:
     Trajectory(OutputFolder& folder, const WrittenRun& run)
-        : folder_(folder), run_(run), positions_(folder, "trajectory_frames.npz") {
+        : folder_(folder), run_(run), positions_(folder, "trajectory_frames.npz"), given_(folder) {
         for (const WrittenCloth& cloth : run_.cloths) node_count_ += cloth.particle_count();
         for (const WrittenCollider& collider : run_.obstacles) node_count_ += collider.vertices.size();
         positions_.append(bytes_of(header()));
@@ -29,6 +30,10 @@ class Trajectory : public FrameWriter {
             positions_.append(std::as_bytes(std::span(nodes)));
         }
         ++frame_count_;
+        FrameValues given;
+        for (const auto& [name, value] : frame.values)
+            if (is_given(name)) given[name] = value;
+        given_.add(frame.number, given);
     }
 
     std::vector<FileRecord> finish() override {
@@ -36,6 +41,12 @@ class Trajectory : public FrameWriter {
         ZipFile archive(folder_, "trajectory.npz", run_.deflates);
         archive.add("world_pos.npy", positions_);
         add_mesh(archive);
+        for (const std::string& name : given_.names()) {
+            const std::vector<double> values = given_.column(name);
+            archive.add(name + ".npy",
+                        npy_array("<f8", fmt::format("{},", values.size()), std::as_bytes(std::span(values))));
+        }
+        for (const auto& [name, array] : run_.set) archive.add(name + ".npy", array);
         return {archive.commit()};
     }
 
@@ -80,6 +91,7 @@ class Trajectory : public FrameWriter {
     WrittenRun run_;
     std::size_t node_count_ = 0, frame_count_ = 0;
     AtomicFile positions_;
+    FrameTable given_;
 };
 
 }  // namespace
@@ -89,8 +101,9 @@ extern const OutputFormat mgn_format{
     .files = "trajectory.npz",
     .holds =
         "a trajectory of MeshGraphNets' flag_simple: world_pos, float32 [frame, node, 3], mesh_pos [1, node, 2], "
-        "cells [1, cell, 3], node_type [1, node, 1]; colliders are nodes of type 1, as in sphere_simple; not with "
-        "cutters or tear",
+        "cells [1, cell, 3], node_type [1, node, 1]; colliders are nodes of type 1, as in sphere_simple; what was "
+        "given to "
+        "each frame, given_wind_x_m_s and so on [frame], and what overrides set, set/POINTER; not with cutters or tear",
     .is_archive = true,
     .follows_cuts = false,
     .frame_files = false,

@@ -20,7 +20,8 @@ struct ParticleArray {
 constexpr ParticleArray positions{"positions"}, velocities{"velocities"}, contacts{"contacts", {"<i2", 2, 1}};
 constexpr std::array<const ParticleArray*, 3> particle_arrays{&positions, &velocities, &contacts};
 
-/// Returns a cloth's values under its own names, and those of the frame's effort, which is all cloths'.
+/// Returns a cloth's values under its own names, and those of the frame's effort and of what was given, which are all
+/// cloths'.
 FrameValues numbers_of(const FrameValues& values, const std::string& label) {
     const std::string own = label + "/";
     FrameValues numbers;
@@ -30,7 +31,7 @@ FrameValues numbers_of(const FrameValues& values, const std::string& label) {
              {"substeps", "attempts", "motion_error_m_s", "motion_allowed_m_s", "position_error_m",
               "position_error_at_end_m", "position_allowed_m", "parted_m", "sensitive", "asleep"})
             if (name == effort) numbers[name] = value;
-        if (name.starts_with("failed_")) numbers[name] = value;
+        if (name.starts_with("failed_") || name.starts_with("given_")) numbers[name] = value;
     }
     return numbers;
 }
@@ -83,6 +84,7 @@ class NpzFile {
             archive.add(name + ".npy", list_array("<f8", numbers_.column(name)));
         const std::int64_t seed = run_.seed;
         archive.add("seed.npy", npy_array("<i8", "", std::as_bytes(std::span(&seed, 1))));
+        for (const auto& [name, array] : run_.set) archive.add(name + ".npy", array);
         archive.add("parameters.npy", text_array(run_.parameters));
         archive.add("scene.npy", text_array(run_.scene));
         return archive.commit();
@@ -146,7 +148,8 @@ extern const OutputFormat npz_format{
         "positions as in npy; velocities likewise, m/s; contacts [frame, row, column], the number of the collider "
         "that a particle touches, or -1; faces [face, 3], after a cut faces_FRAME, from that frame on; uv [row, "
         "column, 2]; frames and times (s) [frame]; the manifest's numbers of each frame, stretch_error_rms, "
-        "kinetic_energy_j and so on [frame]; seed, of the gusts; parameters, what the run chose, and scene, with "
+        "kinetic_energy_j and so on [frame]; what was given to each frame, given_wind_x_m_s and so on [frame]; what "
+        "overrides set, set/POINTER; seed, of the gusts; parameters, what the run chose, and scene, with "
         "every default, JSON",
     .details = true,
     .is_archive = true,

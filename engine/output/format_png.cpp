@@ -18,7 +18,9 @@ class PngWriter : public FrameWriter {
     void add(const WrittenFrame& frame) override {
         std::vector<std::uint8_t> rgba = sequence_.take_buffer(frame.rgba.size());
         std::ranges::copy(frame.rgba, rgba.begin());
-        sequence_.submit(frame.number, width_, height_, std::move(rgba), frame.values);
+        FrameValues values = frame.values;
+        std::erase_if(values, [](const auto& each) { return is_given(each.first); });
+        sequence_.submit(frame.number, width_, height_, std::move(rgba), values);
     }
 
     void flush() override { sequence_.flush(); }

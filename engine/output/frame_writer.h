@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drape/scene.h"
@@ -46,6 +47,8 @@ struct WrittenRun {
     std::string key;                ///< the run's key (kept_frames.h)
     std::string scene, parameters;  ///< JSON: the scene with its defaults written out; the run's choices
     std::uint32_t seed = 0;         ///< determines the gusts
+    std::vector<std::pair<std::string, std::string>> set =
+        {};  ///< name and NPY text of what overrides gave (set_arrays)
     std::vector<WrittenCollider> colliders = {};
     std::vector<WrittenCollider> obstacles = {};  ///< the same colliders for graph networks, which know only nodes
 

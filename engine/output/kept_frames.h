@@ -17,6 +17,8 @@ std::string run_key(const std::vector<std::string>& parts);
 
 // The numbers about a frame have names (Manifest::FrameStatistics).
 using FrameValues = std::map<std::string, double>;
+// Returns whether a name is that of a value that was put in (run/given_values.h), which the scene gives anew.
+inline bool is_given(std::string_view name) { return name.starts_with("given_") || name.find("/given_") != name.npos; }
 
 // Returns the text chunk of a frame's PNG: "<run key> frame <number>", and a JSON object of the frame's values when
 // there are any, which a run that resumes need not compute again. Throws OutputError when one is not finite.

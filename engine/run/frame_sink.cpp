@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "run/contacts.h"
+#include "run/given_values.h"
 
 namespace drape {
 
@@ -35,7 +36,11 @@ Sink::Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const
     if (folder) times_.emplace(*folder);
     for (const OutputFormat* format : output_formats(request.formats))
         writers_.push_back({format, folder ? format->open(*folder, run) : format->stream(request.stream, run)});
-    for (const auto& [frame, picture] : kept) statistics_->add(frame, picture.values);
+    for (const auto& [frame, picture] : kept) {
+        FrameValues values = given_values(scene, frame);
+        values.insert(picture.values.begin(), picture.values.end());
+        statistics_->add(frame, values);
+    }
 }
 
 Sink::Contacts Sink::touched(std::uint32_t frame, const std::vector<std::span<const float>>& positions) const {

@@ -9,6 +9,7 @@
 #include "graph/dump.h"
 #include "output/json_text.h"
 #include "picture/strain_scale.h"
+#include "run/given_values.h"
 #include "run/written_colliders.h"
 #include "world/start.h"
 
@@ -118,6 +119,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.deflates = request.deflates;
     run.key = manifest.run_key;
     run.seed = scene.wind.gust.seed;
+    run.set = set_arrays(manifest.scene.overrides);
     run.up = scene.up;
     run.colliders = written_colliders(scene);
     run.obstacles = written_obstacles(scene);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "run/given_values.h"
 
 namespace drape {
 
@@ -73,7 +74,7 @@ std::string penetration_text(double metres) {
 
 FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame) {
     const std::vector<ClothStatistics>& cloths = frame.statistics;
-    FrameValues values;
+    FrameValues values = given_values(scene, frame.frame);
     if (frame.effort.substeps > 0) {
         values["substeps"] = frame.effort.substeps;
         values["attempts"] = frame.effort.attempts;

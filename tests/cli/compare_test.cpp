@@ -66,6 +66,23 @@ TEST_F(Compare, WhatIsNoNumberIsNearNothingButItself) {
     EXPECT_THAT(outcome.out, HasSubstr("largest difference inf at (0, 0), RMS inf, 1 of 4 values differ"));
 }
 
+TEST_F(Compare, TwoDevicesAreComparedWithoutTheirNames) {
+    const auto write = [&](const char* name, const std::string& parameters) {
+        write_text(*this / "make.py", "import numpy as n\nn.savez('" + (*this / name).string() +
+                                          "', positions=n.zeros((1, 2)), parameters=n.array('" + parameters + "'))\n");
+        ASSERT_EQ(Running("/usr/bin/python3", {(*this / "make.py").string()}).wait().code, 0);
+    };
+    write("a.npz", R"({"device": "one", "driver": "d 1", "kernels": ["line"], "substeps": 4})");
+    write("b.npz", R"({"device": "another", "driver": "e", "kernels": [], "substeps": 4})");
+    write("c.npz", R"({"device": "one", "driver": "d 1", "kernels": ["line"], "substeps": 5})");
+    const Outcome same = run("a.npz", "b.npz");
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_THAT(same.out, HasSubstr("ok    a.npz/parameters: equal but for the device and its kernels"));
+    const Outcome other = run("a.npz", "c.npz");
+    EXPECT_EQ(other.code, 7);
+    EXPECT_THAT(other.out, HasSubstr("OVER  a.npz/parameters: other choices"));
+}
+
 TEST_F(Compare, NothingIsNoSuccess) {
     fs::create_directories(*this / "a/jobs");
     fs::create_directories(*this / "b");

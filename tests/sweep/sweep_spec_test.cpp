@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 namespace drape::sweep {
 namespace {
 
@@ -41,6 +44,27 @@ TEST(SweepSpec, AnotherParameterChangesNoValue) {
     EXPECT_EQ(value(""), value(R"(, "/0": {"normal": [0, 1]}, "/z": {"integer": [1, 9]})"));
 }
 
+TEST(SweepSpec, PartsAreDrawnRunByRunAsTheSplitSays) {
+    const auto spec = [](const std::string& more) {
+        return read_sweep_text(R"({"scene": "s", "seed": 5, "vary": {"/a": {"uniform": [0, 1]}})" + more + "}", "spec");
+    };
+    const SweepSpec whole = spec(R"(, "count": 10)");
+    EXPECT_EQ(whole.part_of(3), "");
+    const std::string split = R"(, "split": {"train": 0.7, "validation": 0.2, "test": 0.1})";
+    const SweepSpec few = spec(split + R"(, "count": 10)"), many = spec(split + R"(, "count": 4000)");
+    std::map<std::string, int, std::less<>> counts;
+    for (std::uint32_t index = 0; index < many.count; ++index) {
+        ++counts[std::string(many.part_of(index))];
+        if (index >= few.count) continue;
+        EXPECT_EQ(few.part_of(index), many.part_of(index)) << "a larger count moves none";
+        EXPECT_EQ(many.parameters_of(index), whole.parameters_of(index)) << "nor does a split change values";
+    }
+    // Four standard deviations of binomial counts.
+    EXPECT_NEAR(counts["train"], 2800, 4 * std::sqrt(4000 * 0.7 * 0.3));
+    EXPECT_NEAR(counts["validation"], 800, 4 * std::sqrt(4000 * 0.2 * 0.8));
+    EXPECT_NEAR(counts["test"], 400, 4 * std::sqrt(4000 * 0.1 * 0.9));
+}
+
 struct Wrong {
     const char *name, *text, *message;
 };
@@ -57,6 +81,8 @@ TEST_P(WrongSpec, IsRefusedAtItsPlace) {
 }
 
 const Wrong wrongs[] = {
+    {"SplitOfMore", R"({"scene": "s", "count": 1, "split": {"train": 0.9, "test": 0.2}})",
+     "spec.json:1:37: /split: expected shares that add up to 1, got 1.1"},
     {"NoScene", "{\"count\": 1}", "spec.json:1:1: /scene: expected the path of a scene file, got nothing"},
     {"NoCount", "{\"scene\": \"s\"}", "spec.json:1:1: expected a count of runs: without a grid there is no other"},
     {"UnknownKey", "{\"scene\": \"s\", \"cuont\": 1}",

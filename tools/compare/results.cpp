@@ -96,6 +96,37 @@ double furthest_mean(const Array& a, const Array& b, std::size_t from) {
     return furthest;
 }
 
+/// Returns the text that an array of strings of no dimension has, or nothing.
+std::optional<std::string> text_of(const Array& array) {
+    if (!array.type.starts_with("<U") || !array.shape.empty()) return std::nullopt;
+    std::string text;
+    for (std::size_t at = 0; at + 4 <= array.bytes.size(); at += 4)
+        if (array.bytes[at] != std::byte{}) text += static_cast<char>(array.bytes[at]);
+    return text;
+}
+
+/// Returns what a run chose, without the names of the device that it ran on and of the kernels that it took there.
+Json::Value choices_of(const Array& parameters) {
+    const auto text = text_of(parameters);
+    Json::Value choices = text ? parse_json(*text).value_or(Json::Value()) : Json::Value();
+    if (choices.isObject())
+        for (const char* name : {"device", "driver", "kernels"}) choices.removeMember(name);
+    return choices;
+}
+
+/// Two devices differ by name, and that is no difference of results.
+Row compare_parameters(const std::string& name, const Array& a, const Array& b) {
+    Row row{name, {}, false, {}, {}, {}};
+    if (a.bytes == b.bytes) {
+        row.text = "equal";
+        return row;
+    }
+    const Json::Value before = choices_of(a), after = choices_of(b);
+    row.over = before != after || !before.isObject();
+    row.text = row.over ? "other choices" : "equal but for the device and its kernels";
+    return row;
+}
+
 Row compare_arrays(const std::string& name, const Array& a, const Array& b, const Limits& limits,
                    const Frames& frames) {
     Row row{name, {}, false, {}, {}, {}};
@@ -170,7 +201,12 @@ std::vector<Row> compare_array_files(const fs::path& a, const fs::path& b, const
     for (const Array& array : before) {
         const std::string name = array.name.empty() ? file : file + "/" + array.name;
         const auto other = std::ranges::find(after, array.name, &Array::name);
-        rows.push_back(other == after.end() ? only_in(name, a) : compare_arrays(name, array, *other, limits, frames));
+        if (other == after.end())
+            rows.push_back(only_in(name, a));
+        else if (array.name == "parameters")
+            rows.push_back(compare_parameters(name, array, *other));
+        else
+            rows.push_back(compare_arrays(name, array, *other, limits, frames));
     }
     for (const Array& array : after)
         if (std::ranges::find(before, array.name, &Array::name) == before.end())

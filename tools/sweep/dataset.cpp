@@ -10,6 +10,7 @@
 #include "base/output_error.h"
 #include "output/atomic_file.h"
 #include "output/json_text.h"
+#include "run/given_values.h"
 #include "run/run.h"
 #include "run/written_colliders.h"
 
@@ -74,6 +75,23 @@ Json::Value feature(const char* type, const std::vector<std::int64_t>& shape, co
     return value;
 }
 
+/// Returns the arrays of what was put into the trajectories: of the first run that there is.
+Json::Value inputs(const SweepSpec& spec, std::int64_t frames) {
+    Json::Value all(Json::objectValue);
+    for (std::uint32_t index = 0; index < spec.count; ++index) {
+        const SceneResult result = read_scene(spec.scene, spec.overrides_of(index));
+        if (!result.scene) continue;
+        for (const auto& [name, value] : given_values(*result.scene, 0))
+            all[name] = feature("dynamic", {frames}, "float64");
+        for (const auto& [name, array] : set_arrays(spec.overrides_of(index))) {
+            all[name] = Json::Value(Json::objectValue);
+            all[name]["type"] = "static";
+        }
+        break;
+    }
+    return all;
+}
+
 }  // namespace
 
 void give_file(const fs::path& from, const fs::path& to) {
@@ -96,6 +114,9 @@ void write_meta(const fs::path& folder, const SweepSpec& spec) {
     features["node_type"] = feature("static", {1, shape.nodes, 1}, "int32");
     features["world_pos"] = feature("dynamic", {shape.frames, shape.nodes, 3}, "float32");
     for (const std::string& name : features.getMemberNames()) meta["field_names"].append(name);
+    meta["inputs"] = inputs(spec, shape.frames);
+    for (std::uint32_t index = 0; index < spec.count && spec.split; ++index)
+        meta["split"][std::string(spec.part_of(index))].append(index);
     write_file(folder / "meta.json", json_text(meta));
 }
 

@@ -176,6 +176,7 @@ void SweepFolder::write(JobRecord record, bool dataset) const {
     json["index"] = record.index;
     json["status"] = record.status();
     json["exit_code"] = record.exit_code;
+    if (spec_.split) json["part"] = std::string(spec_.part_of(record.index));
     json["message"] = record.message;
     json["seconds"] = record.seconds;
     json["parameters"] = Json::Value(Json::objectValue);
@@ -206,12 +207,13 @@ Tally SweepFolder::collect(bool dataset) const {
             tally.failed.push_back(*found);
         records.push_back(*found);
     }
-    std::string csv = "index,status,exit_code,message";
+    std::string csv = spec_.split ? "index,status,exit_code,message,part" : "index,status,exit_code,message";
     for (const auto& [pointer, distribution] : spec_.parameters) csv += "," + csv_text(pointer);
     for (const auto& [name, unused] : names) csv += "," + csv_text(name);
     csv += ",seconds\n";
     for (const JobRecord& job : records) {
         csv += fmt::format("{},{},{},{}", job.index, job.status(), job.exit_code, csv_text(job.message));
+        if (spec_.split) csv += fmt::format(",{}", spec_.part_of(job.index));
         for (const auto& [pointer, value] : spec_.parameters_of(job.index)) csv += "," + csv_value(value);
         for (const auto& [name, unused] : names) {
             const auto value = job.values.find(name);

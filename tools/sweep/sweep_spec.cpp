@@ -177,6 +177,24 @@ bool check_sweep(const Members& members, SweepSpec& spec) {
     return true;
 }
 
+bool check_split(const Members& members, Split& split) {
+    if (!members.all_fit() || std::abs(split.train + split.validation + split.test - 1) <= 1e-9) return true;
+    return members.object().fail(
+        fmt::format("expected shares that add up to 1, got {:.6g}", split.train + split.validation + split.test));
+}
+
+const Object<Split>& split_format() {
+    static const Object<Split> object{"split",
+                                      "The shares of the runs that train, choose and judge a model.",
+                                      {
+                                          {"train", &Split::train, number(unit_interval), "Share of the runs."},
+                                          {"validation", &Split::validation, number(unit_interval), "Likewise."},
+                                          {"test", &Split::test, number(unit_interval), "Likewise."},
+                                      },
+                                      check_split};
+    return object;
+}
+
 Value<std::uint64_t> seed_value() {
     return {{"\"type\": \"integer\"", "integer"}, [](const SceneNode& node, std::uint64_t& seed) {
                 std::uint32_t read = 0;
@@ -195,6 +213,7 @@ const Object<SweepSpec>& format() {
             {"seed", &SweepSpec::seed, seed_value(), "Of the random numbers."},
             {"count", &SweepSpec::count, integer(1, most_runs), "Runs; default: one per combination of the grids."},
             {"set", ValueText{"\"type\": \"object\"", "object"}, read_set, "Values that all runs have."},
+            {"split", &SweepSpec::split, optional<Split>(split_format()), "Parts of a data set."},
             {"vary", ValueText{"\"type\": \"object\"", "object"}, read_vary, "What changes."},
         },
         check_sweep};
@@ -236,6 +255,12 @@ std::map<std::string, std::string> SweepSpec::parameters_of(std::uint32_t index)
         }
     }
     return values;
+}
+
+std::string_view SweepSpec::part_of(std::uint32_t index) const {
+    if (!split) return {};
+    const double place = std::stod(drawn(Uniform{0, 1}, seed, index, "split"));  // no JSON pointer is called so
+    return place < split->train ? "train" : place < split->train + split->validation ? "validation" : "test";
 }
 
 std::vector<std::string> SweepSpec::overrides_of(std::uint32_t index) const {

@@ -26,8 +26,11 @@ def trajectories(folder):
 
 
 def check(name, arrays, meta):
-    if sorted(arrays) != sorted(meta["field_names"]):
+    if sorted(set(arrays) - set(meta["inputs"])) != sorted(meta["field_names"]):
         raise ValueError(f"{name} has {sorted(arrays)}")
+    for field, feature in meta["inputs"].items():
+        if feature["type"] == "dynamic" and len(arrays[field]) != len(arrays["world_pos"]):
+            raise ValueError(f"{name}: {field} has {len(arrays[field])} frames")
     for field, feature in meta["features"].items():
         array = arrays[field]
         fits = len(array.shape) == len(feature["shape"]) and all(
