@@ -19,6 +19,7 @@ sys.path.insert(0, str(CAMPAIGN))
 import cases  # noqa: E402
 import drawn_a  # noqa: E402
 import drawn_b  # noqa: E402
+import errors  # noqa: E402
 import judge  # noqa: E402
 import report  # noqa: E402
 
@@ -169,6 +170,40 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(checks("cut a line", "self collision"), {"pins_hold", "mass_kept", "uncrossed"})
 
 
+class Errors(unittest.TestCase):
+    """A cloth of a metre, whose limit is 20 mm/s: 10 mm for the first half second, 20 mm at frame 60."""
+    SCENE = {"time": {"fps": 60, "frames": 4}, "cloths": [{"size": [1, 0.5]}]}
+
+    def worst(self, found, own):
+        rows = [{}, {"position_error_m": 0.004}, {"position_error_m": 0.006}, {"position_error_m": 0.05}]
+        return errors.worst_frame(self.SCENE, rows, [found], [own])
+
+    def test_the_worst_frame_is_one_that_the_reference_can_tell(self):
+        worst = self.worst([0, 0.002, 0.005, 0.5], [0, 1e-4, 1e-4, 0.003])
+        self.assertEqual((worst["frame"], worst["share"]), (2, 0.5))
+        self.assertAlmostEqual(errors.ratio({"worst": worst}), 1.2)
+        self.assertEqual(self.worst([0, 0.002, 0.005, 0.5], [0, 1e-4, 1e-4, 1e-4])["share"], 50)
+        self.assertIsNone(errors.ratio({"worst": self.worst([0, 0.002, 0.0025, 0.003], [0, 0.0012, 0.0012, 0.0012])}))
+
+    def test_what_is_said_is_compared_with_what_is_so(self):
+        def is_true(kind, found, own=(0, 0, 0, 0), apart=(0, 0, 0, 0), **said):
+            return errors.is_true(kind, dict(said, frame="2"), self.SCENE, [found], [own], [apart])
+        self.assertTrue(is_true("far off", [0, 0, 0.011, 0], error="30"))
+        self.assertFalse(is_true("far off", [0, 0, 0.009, 0], error="11"))
+        self.assertTrue(is_true("far off", [0, 0, 0.009, 0.02], error="11"))
+        self.assertFalse(is_true("far off", [0, 0, 0.001, 0.02], error="11"))
+        self.assertIsNone(is_true("far off", [0, 0, 0.009, 0], own=[0, 0, 0.002, 0], error="11"))
+        self.assertTrue(is_true("sensitive", [0] * 4, apart=[0, 0, 0, 0.001], parted="2"))
+        self.assertFalse(is_true("sensitive", [0] * 4, apart=[0, 0.001, 0, 0.0005], parted="2"))
+        self.assertTrue(is_true("grows fast", [0, 0, 0.003, 0]))
+        self.assertFalse(is_true("grows fast", [0, 0, 0.001, 0]))
+
+    def test_an_error_over_three_times_its_limit_needs_a_word(self):
+        for share, words, expected in ((2.9, [], "fits"), (3.1, [], "silent"), (3.1, [{"true": True}], "fits"),
+                                       (0.5, [{"true": None}], "fits"), (0.5, [{"true": False}], "untrue")):
+            self.assertEqual(errors.verdict({"worst": {"share": share}, "words": words}), expected)
+
+
 # A stand-in for the program that does one thing wrong.
 STAND_INS = {
     "a moved pin": ("silent", "pins_hold", 'drape(*sys.argv[1:], *(["--set", "/cloths/0/pins=[]"] if verify else []))'),
@@ -247,6 +282,13 @@ class Campaigns(unittest.TestCase):
         self.assertIn("1/1 b/1/8: ", done.stderr)
         done = self.campaign("auto", "--first", "8", "--count", "1", "--tolerance", "0.5")
         self.assertIn("1 cases run, 0 kept", done.stderr)
+
+    def test_errors_are_compared_with_finer_runs(self):
+        done = self.campaign("errors", "--seed", "90417233", "--first", "23", "--count", "1", "--reference-substeps",
+                             "64", "--side", "9")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"b/90417233/23 +fits +\d+ ")
+        self.assertIn("1 of 1 within a factor of 3", done.stdout)
 
     def test_what_is_wrong_is_called_so(self):
         for what, (verdict, reason, script) in STAND_INS.items():

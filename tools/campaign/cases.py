@@ -97,14 +97,19 @@ def mixed(seed, index):
     return [ROWS[place] for place in sorted(chosen)]
 
 
-def small_random(seed, index):
-    """A scene of generator b, small, half of them by a method and settings that somebody may ask for."""
-    scene, numbers = drawn_b.draw_scene(seed, index), Numbers(splitmix64(seed ^ index << 32))
+def capped(scene, side):
+    """The scene with at most so many particles a side; pins stay where they are on the cloth."""
     for cloth in scene["cloths"]:
-        wanted, cloth["grid"] = cloth["grid"], [min(side, 24) for side in cloth["grid"]]
+        wanted, cloth["grid"] = cloth["grid"], [min(count, side) for count in cloth["grid"]]
         for pin in cloth["pins"]:
             pin["box"] = [[corner[k] * (cloth["grid"][k] - 1) // (wanted[k] - 1) for k in (0, 1)]
                           for corner in pin["box"]]
+    return scene
+
+
+def small_random(seed, index):
+    """A scene of generator b, small, half of them by a method and settings that somebody may ask for."""
+    scene, numbers = capped(drawn_b.draw_scene(seed, index), 24), Numbers(splitmix64(seed ^ index << 32))
     if numbers.next() >= 0.5:
         scene["solver"] = {"method": ("explicit", "line", "relax")[int(3 * numbers.next())],
                            "substeps": int(2 ** (7 * numbers.next())),
@@ -134,8 +139,8 @@ def stability_cases(short, seed, mixes, randoms):
     return [case for case in every if case]
 
 
-def auto_cases(generator, seed, first, count, tolerance):
-    """Scenes of method auto, as they are drawn."""
+def auto_cases(generator, seed, first, count, tolerance, side):
+    """Scenes of method auto, as they are drawn, with at most `side` particles a side."""
     asked = {"solver": {"tolerance": tolerance}} if tolerance else {}
-    return [Case(f"{generator}/{seed}/{index}", GENERATORS[generator](seed, index) | asked)
+    return [Case(f"{generator}/{seed}/{index}", capped(GENERATORS[generator](seed, index), side) | asked)
             for index in range(first, first + count)]
