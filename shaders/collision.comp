@@ -41,7 +41,7 @@ VECTOR_OUT(12, displacements_out);
 layout(set = 0, binding = 13, std430) buffer Before { vec4 before[]; };  // w: self_pushed and those beside it
 layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]; };
 TRIPLE_OUT(10, position_out);  // not with `after_impulses`
-#define IMPULSES_SLOT 16
+#define IMPULSES_SLOT 17  // the skin has 16
 #include "include/book_impulses.h"
 
 vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }

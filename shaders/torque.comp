@@ -18,6 +18,7 @@ layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_before;
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D line_control;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly image2D torques;
+layout(constant_id = 22) const bool second_order = false;
 layout(constant_id = 23) const bool windy = false;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D wind_force;
 
@@ -26,7 +27,7 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D wind_force;
 #include "include/stored_torque.h"
 
 vec3 start, moved;  // position and displacement of the particle `about`, m
-bool second_order;  // all three are read before anything has branched (docs/devices.md)
+bool is_bdf2;       // all three are read before anything has branched (docs/devices.md)
 
 /// Returns the sum with a particle. One that is held has no mass here. Nothing branches: on the default device all
 /// numbers of the sum would be blended at the end of every branch.
@@ -35,13 +36,14 @@ TorqueSum with_particle(TorqueSum sum, ivec2 texel) {
     vec3 before = LOAD(displacement_before, texel).xyz;
     vec4 force = vec4(0.0f);
     if (windy) force = LOAD(wind_force, texel);
-    return joined(sum, torque_on(position, start, now, moved, before, force.xyz, windy, second_order, push));
+    return joined(sum, torque_on(position, start, now, moved, before, force.xyz, windy, is_bdf2, push));
 }
 
 void main() {
     start = LOAD(position, push.about).xyz;
     moved = LOAD(displacement, push.about).xyz;
-    second_order = imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u;
+    is_bdf2 = false;
+    if (second_order) is_bdf2 = imageLoad(line_control, ivec2(control_order, cloth_place())).x == 2u;
     TorqueSum sum = empty_torque();
     int group = int(gl_WorkGroupID.x), count = push.grid.x * push.grid.y;
     int place = group * torque_particles + int(gl_LocalInvocationIndex);

@@ -40,10 +40,10 @@ bool line_solved(Context c) { return c.cloth.scheme.line_scratch; }
 bool judged(Context c) { return c.needs.statistics || c.model.compares_states(); }
 /// Contact ends every frame with its velocity, which spares its passes a form without.
 bool keeps_excess(Context c) { return judged(c) || c.model.self_contact || c.model.scene.forces; }
-bool keeps_before(Context c) {
-    return second_order(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
-}
 bool rotates(Context c) { return !c.cloth.scheme.ended.empty(); }
+bool keeps_before(Context c) {
+    return second_order(c) || rotates(c) || ((keeps_excess(c) || !c.model.scene.colliders.empty()) && !gathers(c));
+}
 bool turns_in_contact(Context c) { return c.model.self_contact && c.cloth.turn; }
 bool sums_torques(Context c) { return rotates(c) || turns_in_contact(c); }
 bool nested(Context c) { return !c.cloth.scheme.nested_table.empty(); }

@@ -108,6 +108,10 @@ std::vector<std::byte> bytes_of(const MethodScheme& scheme);
 /// Returns phi = (1 - e^(-c h)) / (c h), the mean of the damping factor over a substep. The factor is at least 1/128.
 double damping_mean(double damping, double substep_length);
 glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings& settings);
+/// Ends substeps by taking back, where the cloth can turn, what the method's pulls make of angular momentum: links go
+/// on turning after their pulls were found, so these have a torque, which the cloth's own forces have not.
+/// `drag_ratio`: RotationPush's.
+void add_rotation(const ClothGeometry& cloth, const MethodSettings& settings, float drag_ratio, MethodScheme& scheme);
 /// Returns the displacement before the start of a particle with this velocity (m/s) with which the prediction follows
 /// damped ballistic flight exactly.
 glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, const Vec3& velocity);

@@ -160,23 +160,6 @@ void add_lines(const ClothGeometry& cloth, const MethodSettings& settings, Metho
     carry_tension_to_release(cloth, settings, scheme);
 }
 
-/// A substep's pulls have a torque, which the cloth's own forces have not, since the links go on turning after their
-/// pulls were found. A rotation of the whole cloth takes that back.
-void add_rotation(const ClothGeometry& cloth, const MethodSettings& settings, MethodScheme& scheme) {
-    if (!settings.turn) return;
-    const KeptTurn& turn = *settings.turn;
-    const glsl::PredictPush predict = predict_constants(cloth, settings);
-    const glsl::RotationPush push{cloth.grid.size(),
-                                  turn.about,
-                                  texel(turn.axis, turn.any ? 1.0 : 0.0),
-                                  predict.gravity_step,
-                                  predict.loss.x,
-                                  predict.force_step.x,
-                                  predict.force_step.x / predict.force_step.y,
-                                  static_cast<int>(torque_count(cloth.grid))};
-    scheme.ended = {{StepKind::torque, push}, {StepKind::rotate, push}};
-}
-
 }  // namespace
 
 MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& settings) {
@@ -185,7 +168,8 @@ MethodScheme line_scheme(const ClothGeometry& cloth, const MethodSettings& setti
     add_twist_relaxation(cloth, settings, {bdf2_factor(cloth, settings), least_factor(cloth, settings)}, scheme);
     add_lines(cloth, settings, scheme);
     add_nested_boxes(cloth, settings, scheme);
-    add_rotation(cloth, settings, scheme);
+    const glsl::vec2 force_step = predict_constants(cloth, settings).force_step;
+    add_rotation(cloth, settings, force_step.x / force_step.y, scheme);
     const PerDirection<double>& wanted = cloth.stiffness_constant.spring;
     if (wanted[2] == 0) scheme.skipped.push_back({cloth.name + "/shear springs", "zero stiffness"});
     for (std::size_t direction = 0; direction < wanted.size(); ++direction)

@@ -53,6 +53,7 @@ MethodScheme relax_scheme(const ClothGeometry& cloth, const MethodSettings& sett
     if (cloth.rigid) scheme.used_stiffness.fill(std::numeric_limits<double>::infinity());
     add_bend_relaxation(cloth, settings, scheme);
     add_springs(cloth, settings, scheme);
+    add_rotation(cloth, settings, 1, scheme);
     return scheme;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "cloth/cloth_state.h"
 #include "cloth/method_explicit.h"
 #include "cloth/method_line.h"
 #include "cloth/method_relax.h"
@@ -124,6 +125,21 @@ glsl::ForcePush force_constants(const ClothGeometry& cloth, const MethodSettings
     return {cloth.grid.size(), static_cast<float>(-std::expm1(-damped(cloth.damping, h))),
             static_cast<float>(step / cloth.inner_mass),
             texel(Vec3{step * gravity[0], step * gravity[1], step * gravity[2]}, 0)};
+}
+
+void add_rotation(const ClothGeometry& cloth, const MethodSettings& settings, float drag_ratio, MethodScheme& scheme) {
+    if (!settings.turn) return;
+    const KeptTurn& turn = *settings.turn;
+    const glsl::ForcePush force = force_constants(cloth, settings);
+    const glsl::RotationPush push{cloth.grid.size(),
+                                  turn.about,
+                                  texel(turn.axis, turn.any ? 1.0 : 0.0),
+                                  force.gravity_step,
+                                  force.damping_loss,
+                                  force.force_step,
+                                  drag_ratio,
+                                  static_cast<int>(torque_count(cloth.grid))};
+    scheme.ended = {{StepKind::torque, push}, {StepKind::rotate, push}};
 }
 
 glsl::vec4 verlet_start(const ClothGeometry& cloth, const MethodSettings& settings, const Vec3& velocity) {

@@ -46,7 +46,8 @@ bool stores_stretch_tension(Place p) {
     return !carries_tension(p) && p.step.last && has(p, Field::tension_row) &&
            p.step.push<glsl::AllSpringsPush>().compliance.x > 0;
 }
-bool keeps_before(Place p) { return p.step.last && has(p, Field::displacement_before); }
+/// The torque of a substep's pulls needs the displacement of the substep before.
+bool keeps_before(Place p) { return (p.step.last || !p.scheme().ended.empty()) && has(p, Field::displacement_before); }
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
 

@@ -204,7 +204,7 @@ void run_force(const TwinPlace& where) {
             state[Field::position][i] = texel(advanced.value, position.w);
             state[Field::position_remainder][i] = texel(advanced.remainder);
         }
-        if (step.last && !state[Field::displacement_before].empty())
+        if ((step.last || !model.scheme.ended.empty()) && !state[Field::displacement_before].empty())
             state[Field::displacement_before][i] = texel(displacement);
         if (position.w == 0.0f) continue;
         const vec4 applied = state.force_on(i);

@@ -60,7 +60,7 @@ void run_torque(const TwinPlace& where) {
     const auto& push = step.push<RotationPush>();
     const std::size_t first = arm_origin(model, push);
     const vec3 start = xyz(state[Field::position][first]), moved = xyz(state[Field::displacement][first]);
-    const bool is_bdf2 = state.integers(Field::line_control)[control_order] == 2u;
+    const bool is_bdf2 = model.scheme.second_order && state.integers(Field::line_control)[control_order] == 2u;
     sum_torques(state, push.sum_count, [&](std::size_t i) {
         return torque_on(state[Field::position][i], start, state[Field::displacement][i], moved,
                          xyz(state[Field::displacement_before][i]), xyz(state.force_on(i)), scene.windy, is_bdf2, push);
