@@ -34,6 +34,17 @@ TEST_P(TwinForcesTest, SeveralPinsOfClothsWithHolesInFlight) {
     compare(scene);
 }
 
+/// Particles have frictions and thicknesses of their own, beside the sums of what colliders give them.
+TEST_P(TwinForcesTest, SkinsThatDiffer) {
+    SceneDescription scene = telling_forces(test::everything(), GetParam());
+    Cloth& cloth = scene.cloths[0];
+    for (std::uint32_t particle = 0; particle < cloth.grid[0] * cloth.grid[1]; ++particle) {
+        cloth.particle_friction.push_back(static_cast<float>(particle % 7) / 4.0f);
+        cloth.particle_thickness.push_back(static_cast<float>(particle % 5) / 4.0f);
+    }
+    compare(scene);
+}
+
 std::vector<Load> some_loads() {
     std::vector<Load> loads{test::pull({{2, 2}, {9, 7}}, Vec3{0.3, -0.2, 0.1}),
                             test::pull({{9, 7}, {9, 7}}, std::vector<VectorKey>{{0, {0, 0, 0}}, {0.1, {0, 0, 0.2}}}),
