@@ -135,8 +135,8 @@ SHARED vec3 add_weight(vec3 sum, vec3 gravity, float inner_mass, float inverse_m
 }
 
 /// Returns the area vector of a particle's quarters of cells, m^2, which points to the front. Quarters that face each
-/// other are added first (particle_wind_force). An edge to a neighbour that is cut off is that on the other side, turned
-/// round; what is a thread or a crumb has no side.
+/// other are added first (particle_wind_force). An edge to a neighbour that is cut off is that on the other side,
+/// turned round; what is a thread or a crumb has no side.
 SHARED vec3 area_vector(AirEdges edges, uint air) {
     bool left = (air & air_left) != 0u, right = (air & air_right) != 0u;
     bool up = (air & air_up) != 0u, down = (air & air_down) != 0u;
