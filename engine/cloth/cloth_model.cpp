@@ -49,13 +49,16 @@ void kick(const Cloth& cloth, const MethodSettings& settings, ClothModel& model)
 
 MethodSettings settings_of(const SceneDescription& scene, double substep_length, const std::optional<KeptTurn>& turn,
                            const ModelOptions& options) {
+    // Contact in an earlier iteration gives the cloth impulses that are no torque of its own forces.
+    const bool touches_between = !scene.colliders.empty() && scene.solver.collide == CollideWhen::iteration &&
+                                 scene.solver.iterations > 1 && named(scene.solver.method).iterates();
     return {scene.solver.substeps,
             scene.solver.iterations,
             substep_length,
             gravity_at(scene, 0),
             scene.solver.strain_damping,
             !scene.colliders.empty(),
-            turn,
+            touches_between ? std::nullopt : turn,
             options.skip,
             options.device};
 }

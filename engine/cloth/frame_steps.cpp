@@ -47,8 +47,7 @@ class Substep {
                 steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
                                   last && substep_ + 1 == solver.substeps, 1, conditional});
             const bool per_iteration = solver.collide == CollideWhen::iteration && !model_.scene.colliders.empty();
-            // Contact in an earlier iteration gave the cloth impulses that are no torque of its own forces.
-            if (last && (count == 1 || !per_iteration)) add(cloth_.scheme.ended);
+            if (last) add(cloth_.scheme.ended);
             if (!model_.scene.colliders.empty() && (per_iteration || last))
                 collide(iteration, last && !collides_again()).conditional = conditional && per_iteration;
             if (model_.adaptive() && !last)

@@ -33,8 +33,8 @@ Momenta momentum_causes(const SimulationModel& model, std::size_t index) {
             source.cause == ForceCause::pins ? !turns_on_pins(cloth.turn) : source.cause != ForceCause::gravity;
         if (turns) momenta.angular_momentum_by.push_back(cause);
     }
-    // Explicit steps pull along the links as they are; others take back what they make, where the cloth keeps its turn.
-    if (scene.solver.method != SolverMethod::explicit_steps && !cloth.turn)
+    // Explicit steps pull along the links as they are; others take back what they make, where a substep ends by that.
+    if (scene.solver.method != SolverMethod::explicit_steps && cloth.scheme.ended.empty())
         momenta.angular_momentum_by.push_back("solver");
     if (model.closed_loop()) momenta.angular_momentum_by.push_back("changes of the substeps");
     return momenta;

@@ -179,8 +179,8 @@ TEST(SkipTest, WhatASceneDoesNotNeedDoesNotExist) {
                              "sheet/pinned particles", "sheet/pin motions", "colliders", "sheet/triangles"})
         EXPECT_FALSE(run.pool().has(name)) << name;
     EXPECT_TRUE(run.pool().has("sheet/position"));
-    // force (two variants), springs (one), advance, normals
-    EXPECT_EQ(run.solver().pipeline_count(), 5u);
+    // force (two variants), springs (one), torque, rotate (two variants), advance, normals
+    EXPECT_EQ(run.solver().pipeline_count(), 8u);
 }
 
 TEST(DeterminismTest, TwoRunsGiveTheSameBits) {
