@@ -221,8 +221,9 @@ const Object<Tear> tear{
 
 const Object<Cloth> cloth{
     "cloth",
-    "A rectangular grid of particles. At most 16000000 particles in all cloths together. Single precision must resolve "
-    "a quarter of an edge where the cloth starts, so a fine cloth must not be far from the origin.",
+    "A grid of particles, rectangular or cut by an outline. At most 16000000 particles in all cloths together. Single "
+    "precision must resolve a quarter of an edge where the cloth starts, so a fine cloth must not be far from the "
+    "origin.",
     {
         {"name", &Cloth::name, file_name(),
          "Unique in the scene; becomes a file name. Default: \"cloth\" for the first cloth, \"cloth2\" for the second, "
