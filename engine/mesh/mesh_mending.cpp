@@ -18,6 +18,8 @@ namespace drape {
 
 namespace {
 
+/// A hole with more edges than this stays open, since closing it takes their number squared.
+constexpr std::size_t most_hole_edges = 10'000;
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 std::size_t open_edges(const std::vector<Triangle>& triangles) {
@@ -161,8 +163,9 @@ std::vector<Hole> rings_of(const std::vector<Triangle>& triangles) {
 void close_holes(Surface& surface, Solid solid, Mending& done) {
     const double most = small_hole * area(surface);
     for (Hole& hole : rings_of(surface.triangles)) {
-        const std::vector<Triangle> lid = closing(hole, surface.vertices);
-        if (solid == Solid::filled || hole.area <= most) {
+        const bool closes = hole.ring.size() <= most_hole_edges;
+        const std::vector<Triangle> lid = closes ? closing(hole, surface.vertices) : std::vector<Triangle>{};
+        if (closes && (solid == Solid::filled || hole.area <= most)) {
             surface.triangles.insert(surface.triangles.end(), lid.begin(), lid.end());
             done.closed.push_back(std::move(hole));
         } else {
@@ -262,9 +265,9 @@ std::string holes_text(const std::vector<Hole>& holes) {
 MeshError too_open(std::size_t edges, const Vec3& at) {
     return MeshError(fmt::format(
         "expected a closed surface, got one with {} edges of one triangle alone, one at ({:.6g}, {:.6g}, "
-        "{:.6g}) m, around holes that are larger than {:.0f} % of its area: give \"shell\", its thickness in "
+        "{:.6g}) m, around holes of more than {:.0f} % of its area or {} edges: give \"shell\", its thickness in "
         "metres, if it is to be a thin wall, or \"solid\": \"filled\" for a body whose holes are all closed",
-        edges, at[0], at[1], at[2], 100 * small_hole));
+        edges, at[0], at[1], at[2], 100 * small_hole, most_hole_edges));
 }
 
 std::string Mending::text() const {

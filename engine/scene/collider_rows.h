@@ -92,7 +92,7 @@ inline const Object<Collider> mesh{
          "turn outwards, those in a cavity inwards, and holes of at most 5 % of the surface's area are closed; a "
          "warning says what was done. Larger ones are refused, but gaps of up to 1 % of the diagonal between parts "
          "may stay: inside is what the surface winds around by more than a half. filled: likewise, and holes of any "
-         "size are closed. strict: a surface that is not closed is refused."},
+         "size are closed, of at most 10,000 edges. strict: a surface that is not closed is refused."},
         {"spacing", &Mesh::spacing, optional(number(positive)),
          "Metres between the points of the lattice. Absent: half of the least distance of particles, or of the shell's "
          "thickness, and more where that needs over 2 million points, or over 262144 of a mesh that deforms."},
