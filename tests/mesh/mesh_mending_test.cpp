@@ -236,6 +236,11 @@ TEST(MeshMending, AnOpenCupIsAShellOrFilled) {
     expect_brute_force(body, 0.5);
 }
 
+TEST(MeshMending, AHoleOfVeryManyEdgesStaysOpen) {
+    EXPECT_THAT(why_no_body(cup(10'001), Solid::filled),
+                testing::AllOf(HasSubstr("10001 edges of one triangle alone"), HasSubstr("or 10000 edges")));
+}
+
 /// The faces of a box, each made smaller about its middle. Each one's hole would be as large as it is.
 Triangles sheets(double share) {
     Triangles mesh, box = test::box_mesh({0.3, 0.2, 0.5});
