@@ -24,8 +24,8 @@ struct MethodSettings {
     Vec3 gravity;                        ///< m/s^2, at the start
     double strain_damping;               ///< SolverSettings' value
     bool collides;                       ///< the scene has colliders
-    std::optional<KeptTurn> turn{};  ///< what a substep may end by keeping
-    bool skip = true;  ///< false: do work that changes no bit, too
+    std::optional<KeptTurn> turn{};      ///< what a substep may end by keeping
+    bool skip = true;                    ///< false: do work that changes no bit, too
     DeviceKind device = DeviceKind::cpu;
 };
 
