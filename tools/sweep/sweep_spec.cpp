@@ -265,7 +265,7 @@ std::string_view SweepSpec::part_of(std::uint32_t index) const {
 
 std::vector<std::string> SweepSpec::overrides_of(std::uint32_t index) const {
     std::vector<std::string> overrides = set;
-    for (const auto& [pointer, value] : parameters_of(index)) overrides.push_back(pointer + "=" + value);
+    for (const auto& [pointer, value] : parameters_of(index)) overrides.push_back(fmt::format("{}={}", pointer, value));
     return overrides;
 }
 
