@@ -113,7 +113,6 @@ std::vector<FieldRow> motion_rows() {
          particles},
         // The scratch belongs to the device, not to the frame: an invocation reads only what it wrote itself, and
         // nothing outlives a pass.
-        // outlives a pass.
         {Field::line_scratch, "line scratch", stored, vector, device, line_solved, line_scratch},
         {Field::nested_rows, "nested rows", stored, vector, device, nested, particles},
         {Field::nested_boxes, "nested boxes", buffer, layout_of<glsl::ivec4>(), constant, nested, nested_list,

@@ -77,7 +77,7 @@ class Fit {
   private:
     void find_cells();
     void part_cells_that_share_a_corner();
-    void follow_curves(std::span<const OutlineCurve> curves);
+    void follow_curves();
     std::vector<std::vector<std::uint32_t>> rims() const;
     void lay(const std::vector<std::uint32_t>& rim, const Track& track, const OutlineCurve& curve);
 
@@ -126,7 +126,7 @@ Fit::Fit(std::span<const OutlineCurve> curves, double spacing, std::uint64_t mos
     for (std::uint32_t row = 0; row < rows(); ++row)
         for (std::uint32_t column = 0; column < columns(); ++column)
             panel_.places.push_back({column * cell_[0], row * cell_[1]});
-    follow_curves(curves);
+    follow_curves();
 }
 
 /// Measures along lines across the cells which share of each is inside, exactly along a line.
@@ -202,8 +202,8 @@ std::vector<std::vector<std::uint32_t>> Fit::rims() const {
 }
 
 /// Lays each rim along the curve that its particles are nearest to.
-void Fit::follow_curves(std::span<const OutlineCurve> curves) {
-    std::vector<OutlineCurve> moved(curves.begin(), curves.end());
+void Fit::follow_curves() {
+    std::vector<OutlineCurve> moved(curves_.begin(), curves_.end());
     for (OutlineCurve& curve : moved)
         for (PanelPoint& point : curve.points) point = {point[0] - panel_.low[0], point[1] - panel_.low[1]};
     std::vector<Track> tracks;
