@@ -114,7 +114,7 @@ const std::vector<SceneBreak>& scene_breaks() {
         {"stack", "penetration", "no collision", 16, no_collision},
         {"stack", "uncrossed", "no self-collision", 30, no_self_collision},
         {"swinging_blade", "uncrossed", "no self-collision", to_the_end, no_self_collision},
-        {"torn_banner", "uncrossed", "no self-collision", 46, no_self_collision},
+        {"torn_banner", "uncrossed", "no self-collision", to_the_end, no_self_collision},
         {"twist", "pins_follow", "key-framed pins stay", 20, pins_stay},
         {"twist", "uncrossed", "no self-collision", 60, no_self_collision},
         {"two_cloths", "falls", "gravity 1 % too strong", 4, gravity_one_percent_off},
