@@ -14,6 +14,9 @@ namespace drape {
 namespace {
 
 constexpr double slight = 1e-6;  ///< relative to lengths
+/// A strip of rigidity B (N m) and weight w (N/m^2) that is clamped at its foot stands up to the height (greenhill
+/// B/w)^(1/3) (Greenhill 1881).
+constexpr double greenhill = 7.837;
 
 Vec3 place_of(const ClothModel& cloth, std::size_t particle) {
     const glsl::vec4& at = cloth.position[particle];
@@ -38,19 +41,29 @@ bool pins_may_meet(const ClothModel& cloth) {
     return moving > 1 || (moving == 1 && held > static_cast<std::ptrdiff_t>(cloth.pinned.size()));
 }
 
-/// Returns whether cloth in a plane that gravity does not leave may be pushed together: some of it is above all that is
-/// held, or stands on a collider, its pins move, or it starts shorter than it is.
-bool is_pushed(const SimulationModel& model, const ClothModel& cloth, const Vec3& gravity) {
-    if (std::ranges::min(cloth.placement.scale) < 1 || pins_may_meet(cloth)) return true;
-    if (length(gravity) == 0) return false;
+/// Returns how far cloth reaches above all that is held, m; infinite where nothing is.
+double height_above_held(const ClothModel& cloth, const Vec3& gravity) {
     double highest_held = -std::numeric_limits<double>::infinity(), highest = highest_held;
     for (std::size_t k = 0; k < cloth.position.size(); ++k) {
         const double height = -dot(place_of(cloth, k), gravity) / length(gravity);
         double& most = cloth.position[k].w > 0 ? highest : highest_held;
         most = std::max(most, height);
     }
-    if (std::isinf(highest_held)) return !model.scene.colliders.empty();
-    return highest > highest_held + slight * cloth.reach();
+    return highest - highest_held;
+}
+
+/// Returns whether cloth in a plane that gravity does not leave may be pushed together: some of it is above all that is
+/// held, or stands on a collider, its pins move, or it starts shorter than it is.
+bool is_pushed(const SimulationModel& model, const ClothModel& cloth, const Vec3& gravity) {
+    if (std::ranges::min(cloth.placement.scale) < 1 || pins_may_meet(cloth)) return true;
+    if (length(gravity) == 0) return false;
+    const double height = height_above_held(cloth, gravity);
+    return std::isinf(height) ? !model.scene.colliders.empty() : height > slight * cloth.reach();
+}
+
+/// Returns whether gravity lies in the plane with this normal.
+bool is_upright(const Vec3& normal, const Vec3& gravity) {
+    return std::abs(dot(gravity, normal)) <= slight * length(gravity);
 }
 
 /// Returns whether level cloth that nothing holds is above the middle of a collider.
@@ -75,9 +88,23 @@ bool starts_in_balance(const SimulationModel& model) {
     return std::ranges::any_of(model.cloths, [&](const ClothModel& cloth) {
         const std::optional<Vec3> normal = normal_of(cloth);
         if (!normal) return false;
-        if (std::abs(dot(gravity, *normal)) <= slight * length(gravity)) return is_pushed(model, cloth, gravity);
+        if (is_upright(*normal, gravity)) return is_pushed(model, cloth, gravity);
         return length(cross(gravity, *normal)) <= slight * length(gravity) && falls_on_a_middle(model, cloth, gravity);
     });
+}
+
+std::optional<Vec3> stands_upright(const SimulationModel& model, std::size_t index) {
+    const ClothModel& cloth = model.cloths[index];
+    const Vec3 gravity = gravity_at(model.scene, 0);
+    if (model.windy || length(gravity) == 0) return std::nullopt;
+    const std::optional<Vec3> normal = normal_of(cloth);
+    if (!normal || !is_upright(*normal, gravity)) return std::nullopt;
+    const Cloth& described = model.scene.cloths[index];
+    const double weight = described.areal_density * length(gravity);
+    const double stands = std::cbrt(greenhill * described.stiffness.bend.largest() / weight);
+    const double height = height_above_held(cloth, gravity);
+    const bool falls = std::isinf(height) ? !model.scene.colliders.empty() : height > stands;
+    return falls ? normal : std::nullopt;
 }
 
 }  // namespace drape

@@ -40,6 +40,7 @@ constexpr double times_law = 3;
 /// The bound for cloth at rest is not raised by `times_law`.
 constexpr double resting_worst = no_use_worst / times_law;
 constexpr double resting_speed = 0.01;  ///< diagonals a second: cloth would take minutes to cross its own length
+constexpr double in_plane = 1e-5;       ///< diagonals: what leaves a plane has gone far beyond it within a second
 /// s for which cloth may keep the strain that it starts with: two swings, 2 pi sqrt(l/g) each, of a cloth that hangs
 /// 1.5 m.
 constexpr double settling_time = 5;
@@ -106,6 +107,17 @@ double bound_of_worst(const Seen& s) { return std::max(no_use_worst, stretch_ask
 bool rests_in_bounds(const Seen& s) {
     return s.frame > 0 && !(s.now().largest_speed > resting_speed * s.start().diagonal) &&
            known(s.now().stretch_error_rms) <= bound_of_rms(s) && known(s.now().stretch_error_max) <= bound_of_worst(s);
+}
+
+/// Returns the seconds for which a cloth has stood at rest in the upright plane in which it starts, where no disturbed
+/// run tells whether it would.
+double time_upright(const Seen& s) {
+    const std::optional<Vec3>& normal = s.start().upright;
+    if (!normal || s.causes.model().closed_loop() || !(s.now().largest_speed <= resting_speed * s.start().diagonal))
+        return 0;
+    const auto& [x, y, z] = s.now().center_of_mass;
+    const double away = std::abs(dot(*normal, minus({x, y, z}, s.start().mean)));
+    return away <= in_plane * s.start().diagonal ? s.frame / s.scene().time.fps : 0;
 }
 
 /// Returns the stretch error that the law allows the springs of a cloth that moves at this speed (m/s).
@@ -289,6 +301,15 @@ constexpr ClothBound cloth_rows[] = {
      .value = true_strain,
      .bound = [](const Seen&) { return springs_mean; },
      .own = [](const Seen& s) { return std::max(s.start().strain - springs_mean, 0.0); }},
+    {.words = {"time for which cloth stands upright, s",
+               "cloth '{cloth}' stands at rest in its plane until frame {frame}, for {value:.3g} s: cloth falls, and "
+               "nothing tells the run which way",
+               "a little placement.jitter or wind does; `auto` disturbs such cloth",
+               "the time in which something falls by its diagonal; nothing where it hangs, its bending holds it, there "
+               "is wind, or `auto` judges it by a disturbed run"},
+     .beyond = Beyond::warning,
+     .value = time_upright,
+     .bound = [](const Seen& s) { return std::sqrt(2 * s.start().diagonal / length(gravity_at(s.scene(), 0))); }},
     {.words = {"stretch error of a spring when the run ends",
                "cloth '{cloth}' has not settled when the run ends, in frame {frame}: in the last frames the stretch "
                "error of a spring comes to {value:.3g} of its length, where cloth that nothing moves keeps {bound:.3g}",

@@ -7,6 +7,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/loads.h"
+#include "control/balance.h"
 #include "world/collider_pose.h"
 #include "world/weather.h"
 
@@ -135,8 +136,10 @@ std::vector<ClothStatistics> starting_statistics(const SimulationModel& model) {
 Causes::Causes(const SimulationModel& model) : model_(model) {
     const auto moves = [](const auto& any) { return any.moves(); };
     const std::vector<ClothStatistics> statistics = starting_statistics(model);
-    for (std::size_t k = 0; k < model.cloths.size(); ++k)
+    for (std::size_t k = 0; k < model.cloths.size(); ++k) {
         starts_.push_back(start_of(model.scene, model.scene.cloths[k], model.cloths[k], statistics[k]));
+        starts_.back().upright = stands_upright(model, k);
+    }
     led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // contact may lift such cloth
     passive_ = !model.windy && !led_apart_ && std::ranges::none_of(model.scene.colliders, moves) &&
                std::ranges::none_of(model.cloths, &ClothModel::has_motion);

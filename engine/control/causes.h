@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "cloth/simulation_model.h"
@@ -31,6 +32,7 @@ class Causes {
         double released = 0;      ///< m/s that a cloth gains when its initial strain and bending are released
         double recoil = 0;        ///< m/s that a cloth gains when it stiffens after gravity stretched it at its softest
         std::vector<double> load_masses{};  ///< local_load_masses (cloth/loads.h)
+        std::optional<Vec3> upright{};      ///< stands_upright (balance.h)
     };
     /// How pins and colliders move from the start to the end of a frame.
     struct Drive {

@@ -8,11 +8,16 @@
 #include <vector>
 
 #include "base/byte_stream.h"
+#include "cloth/cloth_statistics.h"
+#include "cloth/frame_inputs.h"
 #include "control/balance.h"
 #include "control/frame_judgement.h"
 #include "control/motion_watch.h"
 #include "control/sensitivity.h"
+#include "control/watch.h"
 #include "support/sheets.h"
+#include "twin/statistics.h"
+#include "twin/twin.h"
 
 namespace drape {
 namespace {
@@ -287,6 +292,54 @@ SceneDescription flat_sheet(const Vec3& u, const Vec3& v) {
     scene.cloths[0].placement = {{0, 1, 0}, u, v};
     scene.cloths[0].pins.clear();
     return scene;
+}
+
+TEST(BalanceTest, UprightClothStandsOnlyAsHighAsItsBendingHoldsIt) {
+    SceneDescription scene = flat_sheet({1, 0, 0}, {0, -1, 0});
+    const auto normal = [&] { return stands_upright(SimulationModel(scene), 0); };
+    EXPECT_FALSE(normal()) << "it falls freely";
+    scene.cloths[0].pins = {test::pin_top(scene.cloths[0])};
+    EXPECT_FALSE(normal()) << "it hangs";
+    scene.cloths[0].pins = {test::pin_box(0, 7, 8, 7)};
+    ASSERT_TRUE(normal());
+    EXPECT_NEAR(std::abs((*normal())[2]), 1, 1e-12);
+    // Greenhill: B = w h^3/7.837 holds the height h.
+    const Cloth& cloth = scene.cloths[0];
+    const double height = cloth.size[1], weight = cloth.areal_density * 9.81;
+    const double holds = weight * height * height * height / 7.837;
+    scene.cloths[0].stiffness.bend = 1.01 * holds;
+    EXPECT_FALSE(normal());
+    scene.cloths[0].stiffness.bend = 0.99 * holds;
+    EXPECT_TRUE(normal());
+    scene.wind.velocity = {0, 0, 1};
+    EXPECT_FALSE(normal());
+}
+
+/// Returns what the watch warns of in a run by line of 1.2 s.
+std::vector<std::string> warned(SceneDescription scene) {
+    scene.solver = {.method = SolverMethod::line, .substeps = 10};
+    const SimulationModel model(scene);
+    Watch watch(model);
+    Twin twin(model);
+    for (std::uint32_t frame = 0; frame <= 72; ++frame) {
+        if (frame > 0) twin.run_frame(frame);
+        const auto record = twin_statistics(model, 0, twin.cloth(0), frame_inputs(model, frame));
+        watch.implausible(frame, {cloth_statistics(model, model.cloths[0], record)});
+    }
+    return watch.warnings();
+}
+
+TEST(BalanceTest, WhatStandsUprightByANamedMethodIsWarnedOf) {
+    SceneDescription scene = flat_sheet({1, 0, 0}, {0, -1, 0});
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins = {test::pin_box(0, 7, 8, 7)};
+    cloth.stiffness = {.stretch = 1e5, .shear = 1e4};  // a softer one still swings in its plane
+    EXPECT_THAT(warned(scene), testing::ElementsAre(testing::HasSubstr("stands at rest in its plane until frame 72")));
+    cloth.placement.jitter = 1e-3;
+    EXPECT_THAT(warned(scene), testing::IsEmpty()) << "it fell";
+    cloth.placement.jitter = 0;
+    cloth.pins = {test::pin_top(cloth)};
+    EXPECT_THAT(warned(scene), testing::IsEmpty()) << "it hangs";
 }
 
 TEST(BalanceTest, UprightClothIsInBalanceAndHangingClothIsNot) {
