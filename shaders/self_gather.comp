@@ -48,7 +48,8 @@ bool exists(ivec2 cell, int which) {
     return true;
 }
 
-/// Returns the bits of the primitives that a particle owns and that exist: two triangles, then three edges.
+/// Returns the bits of the primitives that a particle owns and that exist: two triangles, three edges, then itself. A
+/// particle that is no triangle's corner meets nothing.
 uint owned(ivec2 texel) {
     uint bits = (exists(texel, 1) ? 1u : 0u) | (exists(texel, 2) ? 2u : 0u);
     for (int k = 0; k < 3; ++k) {
@@ -56,6 +57,12 @@ uint owned(ivec2 texel) {
         bool is_edge = exists(texel + ivec2(one.x, one.y), one.z) || exists(texel + ivec2(other.x, other.y), other.z);
         bits |= is_edge ? 4u << k : 0u;
     }
+    bool is_corner = false;
+    for (int k = 0; k < self_cells_beside; ++k) {
+        ivec4 cell = self_cell_beside(k);
+        is_corner = is_corner || exists(texel + ivec2(cell.x, cell.y), cell.z);
+    }
+    if (is_corner) bits |= self_particle_exists;
     return bits;
 }
 

@@ -36,7 +36,7 @@ void chain(int entry) {
 /// A cell, with the boxes of its first particle and of the triangles and edges that this particle owns.
 struct Cell {
     ivec2 at;
-    uint bits;  // bits of the triangles and edges that exist
+    uint bits;  // bits of the triangles and edges that exist, and of the particle
     SelfBox particle, upper, lower, along, across, diagonal;
 };
 
@@ -83,7 +83,7 @@ uint meets(SelfBox one, SelfBox other, float thickness) {
 /// Returns bits of the existing triangles of a cell that another cell's first particle may meet.
 uint triangles_met(Cell one, Cell other, float thickness) {
     uint bits = meets(one.particle, other.upper, thickness) | (meets(one.particle, other.lower, thickness) << 1);
-    return bits & other.bits & 3u;
+    return (one.bits & self_particle_exists) != 0u ? bits & other.bits & 3u : 0u;
 }
 
 /// Returns bits of the existing edges of a cell that edge k of another cell may meet.

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "cloth/directions.h"
-#include "world/panel.h"
 
 namespace drape {
 
@@ -28,6 +27,7 @@ Grid::Grid(const Cloth& cloth) : Grid(cloth.grid[0], cloth.grid[1], cloth.holes)
                 (*factors)[cell] = static_cast<float>(double{(*factors)[cell]} * areas_[cell]);
         }
         shape_ = shape_factors(cloth);
+        cells_ = cell_triangles(cloth);
     }
     whole_ = whole_ && stiffness_.empty() && density_.empty();
 }

@@ -10,17 +10,15 @@
 
 #include "drape/scene.h"
 #include "shared/glsl_types.h"
+#include "world/panel.h"
 
 namespace drape {
-
-/// A cell has a bit for its upper triangle (i,j) (i+1,j) (i,j+1) and one for its lower (i+1,j) (i+1,j+1) (i,j+1).
-inline constexpr std::uint32_t upper_triangle = 1, lower_triangle = 2;
 
 class Grid {
   public:
     /// `holes` are boxes of particle indices whose inner cells are missing.
     Grid(std::uint32_t columns, std::uint32_t rows, std::span<const IndexBox> holes = {});
-    /// Makes a cloth's grid, with its holes and the factors of its cells.
+    /// Makes a cloth's grid, with its holes, without the slivers of its outline, and with the factors of its cells.
     explicit Grid(const Cloth& cloth);
 
     std::uint32_t columns() const { return columns_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/flat_distance.h"
 #include "world/contact_shape.h"
 
 namespace drape {
@@ -20,6 +21,15 @@ std::array<double, 2> densest_spacing(const ClothModel& model) {
     for (const glsl::vec4& scales : model.rest_scales)
         least = std::min({least, scales.x, scales.y, scales.z, scales.w});
     return {least * model.spacing[0], least * model.spacing[1]};
+}
+
+/// Returns the spacings, m, along columns and rows of a grid on which no primitives that share no corner are farther
+/// apart than on the flat cloth.
+std::array<double, 2> flat_spacing(const ClothModel& model) {
+    if (model.panel.empty()) return densest_spacing(model);
+    constexpr double rounding = 0.999;
+    const double share = rounding * least_flat_share(model);
+    return {share * model.spacing[0], share * model.spacing[1]};
 }
 
 double smaller_spacing(const ClothModel& model) { return std::ranges::min(densest_spacing(model)); }
@@ -48,7 +58,7 @@ glsl::SelfCloth constants_of(const Cloth& cloth, const ClothModel& model) {
     const double spacing = smaller_spacing(model);
     glsl::SelfCloth constants{};
     constants.grid = model.grid.size();
-    const auto [dx, dy] = densest_spacing(model);
+    const auto [dx, dy] = flat_spacing(model);
     constants.spacing = {static_cast<float>(dx), static_cast<float>(dy)};
     constants.thickness = layer_thickness(cloth, spacing);
     constants.friction = static_cast<float>(friction_of(cloth));

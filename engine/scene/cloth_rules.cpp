@@ -216,15 +216,6 @@ void check_overlaps(const SceneNode& cloths, const SceneDescription& scene) {
     }
 }
 
-/// Contact between cloths takes the cells of a cloth for alike, which those on an outline's rim are not.
-void check_meeting_outlines(const SceneNode& cloths, const SceneDescription& scene) {
-    for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-        if (!scene.cloths[i].panel.empty())
-            cloths.element(i).member("outline").fail(
-                "expected a rectangle where cloths meet (self_collision): contact between cloths does not follow "
-                "outlines yet");
-}
-
 constexpr std::initializer_list<const char*> particle_words{"edge", "corner", "at", "box", "point"};
 
 int count_of(const Members& members, std::initializer_list<const char*> keys) {
@@ -407,10 +398,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     }
     if (members["gravity"] && members["gravity_keys"])
         members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
-    if (cloths_meet(scene))
-        check_meeting_outlines(node, scene);
-    else
-        warn_of_touching(node, cloths);
+    if (!cloths_meet(scene)) warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);

@@ -273,6 +273,21 @@ void Fit::lay(const std::vector<std::uint32_t>& rim, const Track& track, const O
 
 FittedPanel Fit::take() && { return std::move(panel_); }
 
+/// Returns the bit of the triangle of a cell that is too flat over the diagonal, the flatter one of two; 0: there is
+/// none.
+std::uint32_t sliver_of(const Cloth& cloth, std::size_t cell) {
+    constexpr double sliver = 0.1;
+    const std::size_t columns = cloth.grid[0], first = cell / (columns - 1) * columns + cell % (columns - 1);
+    const PanelPoint &right = cloth.panel[first + 1], &below = cloth.panel[first + columns];
+    const PanelPoint upper[] = {cloth.panel[first], right, below},
+                     lower[] = {right, cloth.panel[first + columns + 1], below};
+    const double diagonal = std::hypot(right[0] - below[0], right[1] - below[1]);
+    const double heights[] = {2 * signed_area(upper) / diagonal, 2 * signed_area(lower) / diagonal};
+    const auto [dx, dy] = grid_spacing(cloth);
+    if (std::min(heights[0], heights[1]) >= sliver * dx * dy / std::hypot(dx, dy)) return 0;
+    return heights[0] < heights[1] ? upper_triangle : lower_triangle;
+}
+
 }  // namespace
 
 FittedPanel fit_panel(std::span<const OutlineCurve> curves, double spacing, std::uint64_t most_particles) {
@@ -314,6 +329,15 @@ std::vector<double> cell_areas(const Cloth& cloth) {
         areas[cell] = signed_area(corners) / (dx * dy);
     }
     return areas;
+}
+
+std::vector<std::uint32_t> cell_triangles(const Cloth& cloth) {
+    const std::vector<bool> missing = missing_cells(cloth);
+    std::vector<std::uint32_t> triangles(missing.size());
+    for (std::size_t cell = 0; cell < missing.size(); ++cell)
+        if (!missing[cell])
+            triangles[cell] = (upper_triangle | lower_triangle) & ~(cloth.panel.empty() ? 0 : sliver_of(cloth, cell));
+    return triangles;
 }
 
 std::vector<std::array<double, 4>> shape_factors(const Cloth& cloth) {

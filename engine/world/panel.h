@@ -46,6 +46,13 @@ std::string panel_fault(const Cloth& cloth);
 /// empty: the cloth has none. Missing cells have 1.
 std::vector<double> cell_areas(const Cloth& cloth);
 
+/// The triangles of a cell: (i,j) (i+1,j) (i,j+1), and (i+1,j) (i+1,j+1) (i,j+1).
+inline constexpr std::uint32_t upper_triangle = 1, lower_triangle = 2;
+/// Returns by cell the bits of its triangles, row by row; 0: it is missing. Beside an outline slivers are left out: the
+/// surface ends at the diagonal where a triangle's height over it is less than a tenth of that on the full grid, as it
+/// is where all three corners lie on a smooth rim.
+std::vector<std::uint32_t> cell_triangles(const Cloth& cloth);
+
 /// Returns by particle, for the springs to its right, below it, and below it on the right and on the left, what the
 /// cells' shape makes of a spring's constant in a cell of the area 1: L0^2/L^2, L0 on the full grid, L at rest
 /// (docs/physics.md 1).

@@ -10,6 +10,7 @@
 
 #include "base/vectors.h"
 #include "drape/scene_reader.h"
+#include "world/panel.h"
 #include "world/random.h"
 
 namespace drape {
@@ -141,14 +142,14 @@ bool may_be_tied(const Cloth& cloth) {
 
 TriangleCrossings::Mesh start_mesh(const Cloth& cloth, std::vector<Vec3> at) {
     TriangleCrossings::Mesh mesh{std::move(at), {}};
-    const std::vector<bool> missing = missing_cells(cloth);
+    const std::vector<std::uint32_t> triangles = cell_triangles(cloth);
     const std::uint32_t columns = cloth.grid[0], cells = columns - 1;
     for (std::uint32_t row = 0; row + 1 < cloth.grid[1]; ++row)
         for (std::uint32_t column = 0; column < cells; ++column) {
-            if (missing[std::size_t{row} * cells + column]) continue;
+            const std::uint32_t bits = triangles[std::size_t{row} * cells + column];
             const std::uint32_t first = row * columns + column, below = first + columns;
-            for (const std::uint32_t corner : {first, first + 1, below, first + 1, below + 1, below})
-                mesh.indices.push_back(corner);
+            if (bits & upper_triangle) mesh.indices.insert(mesh.indices.end(), {first, first + 1, below});
+            if (bits & lower_triangle) mesh.indices.insert(mesh.indices.end(), {first + 1, below + 1, below});
         }
     return mesh;
 }

@@ -177,7 +177,10 @@ bool lies_on(const Sheet& a, const Sheet& b, double within) {
 }
 
 bool touches(const Sheet& a, const Sheet& b, double within) {
-    if (!a.cloth->start.empty() || !b.cloth->start.empty()) return lies_on(a, b, within) || lies_on(b, a, within);
+    const auto is_rectangle = [](const Sheet& sheet) {
+        return sheet.cloth->start.empty() && sheet.cloth->panel.empty();
+    };
+    if (!is_rectangle(a) || !is_rectangle(b)) return lies_on(a, b, within) || lies_on(b, a, within);
     return std::ranges::any_of(a.at, [&](const Vec3& x) { return b.holds(x, within); }) ||
            std::ranges::any_of(b.at, [&](const Vec3& x) { return a.holds(x, within); });
 }

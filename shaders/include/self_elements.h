@@ -25,6 +25,9 @@ SHARED uvec4 self_point_pair(ivec2 particle, ivec2 cell, int which) {
                  self_corner(ivec2(cell.x + c.x, cell.y + c.y)), self_corner(ivec2(cell.x + d.x, cell.y + d.y)));
 }
 
+/// The bit of a particle that is some triangle's corner, after those of the triangles and edges that it owns.
+const uint self_particle_exists = 32u;
+
 /// The bits of the primitive pairs of two cells: 0 and 1 are the first cell's particle with the other's triangles, 2
 /// and 3 the other way round; from 4 on come edges, three of the other cell for each of the first.
 const int self_first_edge_pair = 4;
@@ -59,6 +62,12 @@ SHARED ivec4 self_edge_owner(int k, int side) {
     if (k == 2) return ivec4(0, 0, side == 0 ? 1 : 2, 0);
     if (side == 0) return ivec4(0, 0, 1, 0);
     return k == 0 ? ivec4(0, -1, 2, 0) : ivec4(-1, 0, 2, 0);
+}
+
+/// Returns one of the four cells of whose triangles a particle may be a corner, relative to it, with the bits of those.
+const int self_cells_beside = 4;
+SHARED ivec4 self_cell_beside(int k) {
+    return k == 0 ? ivec4(0, 0, 1, 0) : k == 3 ? ivec4(-1, -1, 2, 0) : ivec4(k == 1 ? -1 : 0, k == 1 ? 0 : -1, 3, 0);
 }
 
 #endif

@@ -171,8 +171,6 @@ TEST(OutlineTest, WhatDoesNotFitIsSaid) {
     EXPECT_THAT(error_of(outlined("M0 0H1V1H0ZM.4.4h.01v.01h-.01z", 0.1)), HasSubstr("none"))
         << "a hole below half a cell is none";
     EXPECT_THAT(error_of(outlined("M0 0H1V.02H.5V1H0Z", 0.1)), HasSubstr("a smaller spacing may help"));
-    EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"self_collision\": true")),
-                HasSubstr("contact between cloths does not follow outlines yet"));
     EXPECT_THAT(error_of("\"grid\": [9, 9], \"pins\": [{\"point\": [0, 0]}]"), HasSubstr("a cloth with an outline"));
     EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"pins\": [{\"point\": [0, 0], \"at\": [1, 1]}]")),
                 HasSubstr("exactly one of edge, corner, at, box and point"));

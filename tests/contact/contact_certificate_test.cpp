@@ -80,6 +80,15 @@ TEST_F(ContactCertificateTest, OfAStripThatIsTwistedEightTimes) { expect_proved(
 
 TEST_F(ContactCertificateTest, OfASheetThatIsCrumpled) { expect_proved(crumpled_sheet(17, 401, 16), 401); }
 
+TEST_F(ContactCertificateTest, OfADiscThatIsCrumpled) {
+    std::string disc = crumpled_sheet(17, 401, 16);
+    const std::string grid = R"("grid": [17, 17])";
+    ASSERT_NE(disc.find(grid), std::string::npos);
+    disc.replace(disc.find(grid), grid.size(),
+                 R"("outline": {"path": "M0 .5A.5.5 0 0 0 1 .5A.5.5 0 0 0 0 .5Z", "spacing": 0.0625})");
+    expect_proved(disc, 401);
+}
+
 TEST_F(ContactCertificateTest, OfClothThatAColliderLeadsOut) {
     const JudgedRun run = judged_run(parse_scene(led_sheet()), library_device());
     EXPECT_THAT(run.contradictions, IsEmpty());

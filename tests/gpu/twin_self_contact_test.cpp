@@ -1,7 +1,9 @@
 // Contact between cloths on the device against the twin, which looks for pairs among all that there are.
+#include "drape/scene_reader.h"
 #include "support/self_contact_scenes.h"
 #include "twin_comparison.h"
 #include "vulkan/device_requirements.h"
+#include "world/panel.h"
 
 namespace drape {
 namespace {
@@ -139,6 +141,27 @@ TEST(TwinSelfContactTest, ClothsThatHaveComeApartMeet) {
     const glsl::SelfRecord last = compare(scene);
     EXPECT_EQ(last.crossing_count, 0u);
     EXPECT_GT(last.most_pairs, 0u);
+}
+
+/// A ring whose rim's cells are uneven, some of them a triangle alone, meets itself and what falls through its hole.
+TEST(TwinSelfContactTest, OutlinesOfAnyShape) {
+    const SceneDescription ring = parse_scene(
+        R"({"cloths": [{"outline": {"path": "M-.5 0A.5.5 0 0 0 .5 0A.5.5 0 0 0-.5 0ZM0-.3h.2v.2h-.2z",
+            "spacing": 0.062}}]})");
+    for (const auto& [method, substeps] : {std::pair(SolverMethod::line, 14u), {SolverMethod::explicit_steps, 40u}}) {
+        SceneDescription scene = crumpling(17, method, substeps);
+        Cloth& cloth = scene.cloths[0];
+        cloth.grid = ring.cloths[0].grid;
+        cloth.size = ring.cloths[0].size;
+        cloth.holes = ring.cloths[0].holes;
+        cloth.panel = ring.cloths[0].panel;
+        const std::vector<std::uint32_t> cells = cell_triangles(cloth);
+        EXPECT_GT(std::ranges::count(cells, upper_triangle) + std::ranges::count(cells, lower_triangle), 0);
+        scene.cloths.push_back(scene.cloths[0]);
+        scene.cloths[1].name = "other";
+        scene.cloths[1].placement.origin[2] += 0.05;
+        expect_contact(scene);
+    }
 }
 
 TEST(TwinSelfContactTest, ThreeClothsLine) { expect_contact(test::layers(SolverMethod::line, 12)); }

@@ -4,19 +4,29 @@
 
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <set>
 
 #include "drape/scene_reader.h"
 #include "reference/spring_network.h"
 #include "reference/symplectic_reference.h"
 #include "support/sheet_state.h"
+#include "twin/kernels.h"
 #include "twin/twin.h"
 
 namespace drape {
 namespace {
 
 constexpr double radius = 0.5;
+
+const char* const shapes[] = {
+    "M-.5 0A.5.5 0 0 0 .5 0A.5.5 0 0 0-.5 0Z",
+    "M-.5 0A.5.5 0 0 0 .5 0A.5.5 0 0 0-.5 0ZM-.2 0a.2.2 0 0 0 .4 0a.2.2 0 0 0-.4 0z",
+    "M.2 0Q.5.16.8 0L1.1.25.98.38.8.3V1H.2V.3L.02.38-.1.25Z",
+};
 
 SceneDescription disc(std::uint32_t across, const std::string& cloth = "", const std::string& rest = "") {
     return parse_scene(R"({"cloths": [{"outline": {"path": "M-.5 0A.5.5 0 0 0 .5 0A.5.5 0 0 0-.5 0Z", "spacing": )" +
@@ -141,6 +151,77 @@ TEST(OutlineReference, AFlatDiscStaysFlat) {
         }
         EXPECT_LT(largest, 2e-6) << static_cast<int>(method);
     }
+}
+
+/// The primitives of a flat cloth that exist, as contact has them.
+struct FlatPrimitives {
+    std::vector<glsl::uvec4> points, edges;  ///< pairs that share no corner
+
+    explicit FlatPrimitives(const ClothModel& model) {
+        std::vector<std::array<glsl::uint, 3>> triangles;
+        std::set<glsl::uint> corners;
+        std::set<std::array<glsl::uint, 2>> sides;
+        const std::vector<std::uint32_t> indices = model.grid.triangle_indices();
+        const auto corner = [&](std::uint32_t k) {
+            return glsl::self_corner({static_cast<int>(indices[k] % model.grid.columns()),
+                                      static_cast<int>(indices[k] / model.grid.columns())});
+        };
+        for (std::uint32_t k = 0; k < indices.size(); k += 3) {
+            triangles.push_back({corner(k), corner(k + 1), corner(k + 2)});
+            for (std::uint32_t side = 0; side < 3; ++side) {
+                const auto [low, high] = std::minmax(triangles.back()[side], triangles.back()[(side + 1) % 3]);
+                corners.insert(low), sides.insert({low, high});
+            }
+            corners.insert(triangles.back().begin(), triangles.back().end());
+        }
+        const auto add = [](std::vector<glsl::uvec4>& to, bool is_edges, const glsl::uvec4& pair) {
+            if (!glsl::self_shares_corner(is_edges, pair)) to.push_back(pair);
+        };
+        for (const glsl::uint point : corners)
+            for (const auto& [b, c, d] : triangles) add(points, false, {point, b, c, d});
+        for (const auto& [a, b] : sides)
+            for (const auto& [c, d] : sides) add(edges, true, {a, b, c, d});
+    }
+};
+
+/// Returns the least distance of a flat cloth's pairs over the thickness that contact keeps between them, however thick
+/// the cloth is, of those that are at most four columns and rows apart.
+double least_room(const SceneDescription& scene) {
+    const SimulationModel model(scene);
+    const ClothModel& cloth = model.cloths[0];
+    const glsl::SelfCloth constants = model.self_contact->cloths[0];
+    const FlatPrimitives all(cloth);
+    double least = std::numeric_limits<double>::infinity();
+    const auto look = [&](bool edges, const glsl::uvec4& pair) {
+        const auto texel = [](glsl::uint corner) { return glsl::self_texel(corner); };
+        const glsl::ivec2 from = texel(pair.x), to = texel(edges ? pair.z : pair.y);
+        if (std::abs(from.x - to.x) > 4 || std::abs(from.y - to.y) > 4) return;
+        const auto at = [&](glsl::uint corner) {
+            const glsl::vec4& place = cloth.panel[cloth.grid.particle(static_cast<std::uint32_t>(texel(corner).x),
+                                                                      static_cast<std::uint32_t>(texel(corner).y))];
+            return glsl::vec3{place.x, place.y, 0};
+        };
+        const float kept = glsl::self_pair_thickness(1e3f, constants, constants, edges, texel(pair.x), texel(pair.y),
+                                                     texel(pair.z), texel(pair.w));
+        const glsl::SelfGap gap = glsl::self_gap(edges, {at(pair.x), at(pair.y), at(pair.z), at(pair.w)});
+        least = std::min(least, static_cast<double>(gap.distance) / static_cast<double>(kept));
+    };
+    for (const glsl::uvec4& pair : all.points) look(false, pair);
+    for (const glsl::uvec4& pair : all.edges) look(true, pair);
+    return least;
+}
+
+TEST(OutlineContactTest, FlatClothHasRoomForTheThicknessThatContactKeeps) {
+    for (const char* shape : shapes)
+        for (const char* spacing : {"0.1", "0.063", "0.04"}) {
+            const double room =
+                least_room(parse_scene(std::string(R"({"cloths": [{"self_collision": {}, "outline": {"path": ")") +
+                                       shape + R"(", "spacing": )" + spacing + "}}]}"));
+            std::printf("[ measured ] %.20s at %s: flat pairs are %.2f thicknesses apart or more\n", shape, spacing,
+                        room);
+            EXPECT_GT(room, 1.99) << "half of the distance is kept";
+            EXPECT_LT(room, 2.1) << "some pair decides";
+        }
 }
 
 }  // namespace

@@ -410,6 +410,28 @@ TEST(TriangleCrossingsTest, KnowsCrossingFromTouchingAndApart) {
     EXPECT_EQ(with({0.2, 0.2, 0.01}, {5, 5, 1}, {5, 5, 2}, {0, 1, 2, 0, 1, 3}), 0u);
 }
 
+/// Particles within a hole are nobody's corner, and meet nothing.
+TEST(SelfContactTest, ClothFallsThroughAHole) {
+    SceneDescription scene = test::sheet(17, 17, 1, 1, 10);
+    scene.solver.method = SolverMethod::line;
+    Cloth& frame = scene.cloths[0];
+    frame.placement = {{-0.5, 0, -0.5}, {1, 0, 0}, {0, 0, 1}};
+    frame.holes = {{{3, 3}, {13, 13}}};
+    frame.pins = {test::pin_box(0, 0, 16, 16)};
+    frame.self_collision.emplace();
+    Cloth small = frame;
+    small.name = "small";
+    small.grid = {5, 5};
+    small.size = {0.3, 0.3};
+    small.placement.origin = {-0.15, 0.1, -0.15};
+    small.holes.clear(), small.pins.clear();
+    scene.cloths.push_back(small);
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t count = 1; count <= 30; ++count) twin.run_frame(count);
+    for (const glsl::vec4& at : twin.cloth(1)[Field::position]) EXPECT_LT(at.y, -0.8) << "9.81/8 - .1 m below the hole";
+}
+
 TEST(SelfContactTest, TheMessagesTellTheSpeedsOfTheShaders) {
     EXPECT_EQ(static_cast<float>(recovery_speed), glsl::self_recovery_speed);
     EXPECT_EQ(static_cast<float>(parting_speed), glsl::self_parting_speed);

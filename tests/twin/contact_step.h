@@ -118,6 +118,7 @@ class ContactStep {
     void add_between(ivec2 a, ivec2 b);
     bool triangle_exists(ivec2 cell, int which) const;
     bool edge_exists(ivec2 particle, int k) const;
+    bool is_corner(ivec2 particle) const;  ///< of a triangle that exists
     void add_triangles(ivec2 particle, ivec2 cell, vec3 axis);
     void add_pair(const TwinPair& pair, vec3 axis);
     void touch(const TwinPair& pair, const SelfGap& gap, float friction, float kept);

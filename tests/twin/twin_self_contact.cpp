@@ -151,7 +151,16 @@ bool ContactStep::edge_exists(ivec2 particle, int k) const {
     return false;
 }
 
+bool ContactStep::is_corner(ivec2 particle) const {
+    for (int k = 0; k < self_cells_beside; ++k) {
+        const ivec4 cell = self_cell_beside(k);
+        if (triangle_exists({particle.x + cell.x, particle.y + cell.y}, cell.z)) return true;
+    }
+    return false;
+}
+
 void ContactStep::add_triangles(ivec2 particle, ivec2 cell, vec3 axis) {
+    if (!is_corner(particle)) return;
     for (int which = 1; which <= 2; ++which)
         if (triangle_exists(cell, which)) add_pair({false, self_point_pair(particle, cell, which)}, axis);
 }
