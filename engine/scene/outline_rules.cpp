@@ -6,8 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/output_error.h"
 #include "drape/scene_reader.h"
-#include "input/svg_path.h"
+#include "input/svg_file.h"
 #include "scene/scene_rules.h"
 #include "world/panel.h"
 #include "world/start.h"
@@ -19,13 +20,22 @@ namespace {
 /// The pieces of curves are off by at most this share of a cell.
 constexpr double curve_tolerance = 1e-3;
 
-std::vector<OutlineCurve> curves_of(const OutlineText& text) {
-    std::vector<OutlineCurve> curves;
-    for (input::PathCurve& curve : input::read_path(text.path, curve_tolerance * text.spacing / text.scale)) {
+std::vector<input::PathCurve> path_curves(const OutlineText& text) {
+    const double scale = text.scale.value_or(1);
+    std::vector<input::PathCurve> curves = input::read_path(text.path, curve_tolerance * text.spacing / scale);
+    for (input::PathCurve& curve : curves)
         for (PanelPoint& point : curve.points)
-            for (double& x : point) x *= text.scale;
+            for (double& x : point) x *= scale;
+    return curves;
+}
+
+std::vector<OutlineCurve> curves_of(const SceneNode& node, const OutlineText& text) {
+    const double tolerance = curve_tolerance * text.spacing;
+    std::vector<OutlineCurve> curves;
+    for (input::PathCurve& curve : text.file.empty()
+                                       ? path_curves(text)
+                                       : input::read_svg(node.file(text.file), {text.element, text.scale, tolerance}))
         curves.push_back({std::move(curve.points), std::move(curve.corners)});
-    }
     if (curves.empty()) throw std::invalid_argument("a path that goes around something, got no curve of three points");
     return curves;
 }
@@ -56,10 +66,15 @@ bool take_outline(const Members& members, Cloth& cloth, PanelPoint& low) {
     if (!members.all_fit()) return false;
     OutlineText text;
     (void)node.member("path").read(text.path);
-    (void)node.member("scale").read(text.scale, positive);
+    (void)node.member("file").read(text.file);
+    (void)node.member("element").read(text.element);
+    if (const SceneNode scale = node.member("scale")) (void)scale.read(text.scale.emplace(), positive);
     (void)node.member("spacing").read(text.spacing, positive);
+    if (text.path.empty() == text.file.empty()) return node.fail("expected exactly one of path and file");
+    if (!text.element.empty() && text.file.empty())
+        return node.member("element").fail("expected a file, whose element this is");
     try {
-        const FittedPanel fitted = fit_panel(curves_of(text), text.spacing, scene_particle_limit);
+        const FittedPanel fitted = fit_panel(curves_of(node, text), text.spacing, scene_particle_limit);
         cloth.grid = fitted.grid;
         cloth.size = fitted.size;
         cloth.panel = fitted.places;
@@ -71,6 +86,8 @@ bool take_outline(const Members& members, Cloth& cloth, PanelPoint& low) {
                                              (axis == 0 ? cloth.placement.u : cloth.placement.v)[k];
     } catch (const std::invalid_argument& error) {
         return node.fail(fmt::format("expected {}", error.what()));
+    } catch (const OutputError& error) {
+        return node.member("file").fail(error.what());
     }
     if (const std::string fault = panel_fault(cloth); !fault.empty()) return node.fail("expected " + fault);
     scale_to_shapes(cloth);

@@ -48,8 +48,9 @@ struct MapFiles {
 };
 /// A cloth's outline as it is written.
 struct OutlineText {
-    std::string path;                  ///< as SVG has it
-    double scale = 1, spacing = 0.01;  ///< m: of the path's unit; of the cells
+    std::string path, file, element;  ///< path data; or an SVG file, and the id of what counts in it
+    std::optional<double> scale;      ///< m of a unit; nothing: 1, or what the file says
+    double spacing = 0.01;            ///< m: of the cells
 };
 /// Gives a cloth the grid, the holes and the places that its outline asks for, and tells the corner of the outline's
 /// box in its coordinates, m.

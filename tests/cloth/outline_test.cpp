@@ -172,6 +172,11 @@ TEST(OutlineTest, WhatDoesNotFitIsSaid) {
         << "a hole below half a cell is none";
     EXPECT_THAT(error_of(outlined("M0 0H1V.02H.5V1H0Z", 0.1)), HasSubstr("a smaller spacing may help"));
     EXPECT_THAT(error_of("\"grid\": [9, 9], \"pins\": [{\"point\": [0, 0]}]"), HasSubstr("a cloth with an outline"));
+    EXPECT_THAT(error_of("\"outline\": {\"spacing\": 0.1}"), HasSubstr("exactly one of path and file"));
+    EXPECT_THAT(error_of("\"outline\": {\"path\": \"M0 0H1V1Z\", \"file\": \"a.svg\"}"),
+                HasSubstr("exactly one of path"));
+    EXPECT_THAT(error_of("\"outline\": {\"path\": \"M0 0H1V1Z\", \"element\": \"a\"}"), HasSubstr("whose element"));
+    EXPECT_THAT(error_of("\"outline\": {\"file\": \"nowhere.svg\"}"), HasSubstr("/cloths/0/outline/file: "));
     EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"pins\": [{\"point\": [0, 0], \"at\": [1, 1]}]")),
                 HasSubstr("exactly one of edge, corner, at, box and point"));
 }
