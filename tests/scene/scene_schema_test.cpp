@@ -281,7 +281,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"gravity_key", {"t", "gravity"}},
         {"stiffness_key", {"t", "factor"}},
         {"cloth", {"name", "fabric", "outline", "start", "stiffness_keys", "velocities", "tear", "maps"}},
-        {"outline", {"path"}},
+        {"outline", {"path", "file", "element", "scale"}},
         {"warp_weft", {"warp", "weft"}},
         {"rigidity", {"warp", "weft", "twist"}},
         {"tear", {"strain", "tension"}},
