@@ -32,11 +32,13 @@ Vec3 flown(const SceneDescription& scene, const Cloth& cloth, std::size_t partic
 Verdict falls(const SceneRun& run, const Limits& limits) {
     const std::size_t index = limits.index("cloth"), last = std::min(limits.index("until_frame"), run.last_frame());
     const Cloth& cloth = run.scene.cloths.at(index);
+    const std::vector<bool> has_cell = particles_of_cells(cloth);  // others stay where they are
     double worst = 0;
     if (last == 0 || limits.index("from_row") >= cloth.grid[1]) return {false, "there is no such frame or row"};
     for (std::size_t frame = 1; frame <= last; ++frame)
         for (std::size_t particle = limits.index("from_row") * cloth.grid[0];
              particle < run.frames[frame][index].size(); ++particle) {
+            if (!has_cell[particle]) continue;
             const Vec3 moved = minus(run.at(frame, index, particle), run.at(0, index, particle));
             worst = std::max(worst, length(minus(moved, flown(run.scene, cloth, particle, run.time(frame)))));
         }
