@@ -1,16 +1,23 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "base/printable_text.h"
+#include "output/slow_notice.h"
 #include "run/folder_run.h"
 #include "run/run.h"
 
 namespace drape {
 
 RunSummary run_scene(const RunRequest& request) {
+    std::optional<SlowNotice> starting;
+    if (request.message && !request.quiet)
+        starting.emplace(printable(request.scene.path) + ": still being read and prepared ...", request.message);
     FolderRun run(request);
     {
         Simulation simulation(run.scene(), run.options(), run.device());
         run.begin(simulation);
+        starting.reset();
         run.simulate();
         run.finish();
     }

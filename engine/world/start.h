@@ -58,8 +58,9 @@ double start_height(const Cloth& cloth);
 /// so on, until no triangles cross.
 std::vector<Vec3> start_positions(const Cloth& cloth);
 
-/// Returns the largest distance (m) by which this reduction changes where a particle starts.
-double start_untied(const Cloth& cloth);
+/// Returns the largest distance (m) by which this reduction changes where a particle starts; `untied` are the cloth's
+/// start positions.
+double start_untied(const Cloth& cloth, const std::vector<Vec3>& untied);
 
 /// Returns the unit normal of the plane through three of the cloth's corners, or, for a given shape, the mean normal; 0
 /// where there is none.

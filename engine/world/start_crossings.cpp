@@ -210,7 +210,7 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
     for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth) {
         if (!scene.cloths[cloth].self_collision) continue;
         const bool gathered = is_gathered(sheets[cloth]), crosses = !gathered && crosses_itself(sheets[cloth]);
-        const double untied = gathered || crosses ? 0 : start_untied(scene.cloths[cloth]);
+        const double untied = gathered || crosses ? 0 : start_untied(scene.cloths[cloth], sheets[cloth].at);
         if (gathered || crosses || untied > 0)
             all.push_back({.first = cloth, .second = cloth, .untied = untied, .gathered = gathered});
     }
@@ -219,10 +219,9 @@ std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
             const Sheet &a = sheets[first], &b = sheets[second];
             const double within = a.doubt + b.doubt;
             if (!boxes_meet(a, b, within)) continue;
-            const std::size_t crossings =
-                TriangleCrossings({a.mesh(), b.mesh()}).count([](std::size_t one, std::size_t other) {
-                    return one != other;
-                });
+            const std::size_t crossings = TriangleCrossings({a.mesh(), b.mesh()})
+                                              .count([](std::size_t one, std::size_t other) { return one != other; },
+                                                     StartCrossing::most_counted);
             if (crossings > 0 || touches(a, b, within)) {
                 const WayOff off = shorter_way_off(a, b);
                 all.push_back({.first = first,
@@ -264,8 +263,9 @@ std::string crossing_text(const SceneDescription& scene, const StartCrossing& cr
     if (crossing.first == crossing.second) return fmt::format("cloth \"{}\" starts through itself", name);
     const char *are = crossing.triangles == 1 ? "" : "s", *cross = crossing.triangles == 1 ? "es" : "";
     const std::string off = fmt::format("moved by {:.3g} m one would be off the other", crossing.depth);
+    const char* least = crossing.triangles < StartCrossing::most_counted ? "" : "at least ";
     const std::string how = crossing.triangles > 0
-                                ? fmt::format("through each other ({} pair{} of triangles cross{}; {})",
+                                ? fmt::format("through each other ({}{} pair{} of triangles cross{}; {})", least,
                                               crossing.triangles, are, cross, off)
                             : crossing.depth > touching_depth ? fmt::format("on or through each other ({})", off)
                                                               : "on each other";

@@ -12,9 +12,11 @@ namespace drape {
 bool cloths_meet(const SceneDescription& scene);
 
 struct StartCrossing {
+    /// All triangles of one cloth may cross all of the other, too many to look for.
+    static constexpr std::size_t most_counted = 10'000;
+
     std::size_t first = 0, second = 0;  ///< indices of the scene's cloths; equal: the cloth starts through itself
-    std::size_t triangles =
-        0;              ///< pairs of triangles that cross; 0: the two only touch, for instance along a common line
+    std::size_t triangles = 0;  ///< pairs of triangles that cross, counted up to most_counted; 0: the two only touch
     double depth = 0;   ///< m: the shortest distance along a normal of either cloth by which one would clear the other
     Vec3 way{};         ///< unit: moved by the depth along it, the second cloth would clear the first; zero: unknown
     double untied = 0;  ///< m: how far particles were moved where jitter would have made the cloth cross itself

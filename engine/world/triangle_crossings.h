@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -38,31 +39,39 @@ class TriangleCrossings {
         if (!order_.empty()) build(0, order_.size());
     }
 
-    /// Counts the pairs of triangles that cross, among the meshes for whose indices `counts` is true.
+    /// Counts the pairs of triangles that cross, among the meshes for whose indices `counts` is true, up to `most`.
     template <class Counts>
-    std::size_t count(const Counts& counts) const {
+    std::size_t count(const Counts& counts, std::size_t most = std::numeric_limits<std::size_t>::max()) const {
         std::size_t crossings = 0;
-        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
-            crossings += crossings_of(0, triangle, box_of(triangle), counts);
-        return crossings;
-    }
-    bool any() const {
-        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
-            if (crossings_of(0, triangle, box_of(triangle), all) > 0) return true;
-        return false;
-    }
-    /// Returns by point, through all meshes in turn, whether it is a corner of a triangle that crosses another one.
-    std::vector<bool> crossed_points() const {
-        std::vector<bool> crossed(points_.size());
-        for (std::uint32_t triangle = 0; !nodes_.empty() && triangle < triangles_.size(); ++triangle)
-            crossings_of(0, triangle, box_of(triangle), all, [&](std::uint32_t other) {
-                for (const std::uint32_t each : {triangle, other})
-                    for (const std::uint32_t corner : triangles_[each]) crossed[corner] = true;
+        for (std::uint32_t triangle = 0; triangle < triangles_.size() && crossings < most; ++triangle)
+            look(triangle, [&](std::uint32_t other) {
+                const bool counted = other > triangle && counts(mesh_[triangle], mesh_[other]);
+                if (counted && cross(triangle, other)) ++crossings;
+                return crossings < most;
             });
-        return crossed;
+        return crossings;
     }
     std::size_t count() const {
         return count([](std::size_t, std::size_t) { return true; });
+    }
+    bool any() const {
+        return count([](std::size_t, std::size_t) { return true; }, 1) > 0;
+    }
+    /// Returns by point, through all meshes in turn, whether it is a corner of a triangle that crosses another one. It
+    /// looks for one crossing of each triangle, since all may cross all.
+    std::vector<bool> crossed_points() const {
+        std::vector<bool> crossed(points_.size());
+        for (std::uint32_t triangle = 0; triangle < triangles_.size(); ++triangle) {
+            const auto is_crossed = [&](std::uint32_t corner) { return crossed[corner]; };
+            if (std::ranges::all_of(triangles_[triangle], is_crossed)) continue;
+            look(triangle, [&](std::uint32_t other) {
+                if (other == triangle || !cross(triangle, other)) return true;
+                for (const std::uint32_t each : {triangle, other})
+                    for (const std::uint32_t corner : triangles_[each]) crossed[corner] = true;
+                return false;
+            });
+        }
+        return crossed;
     }
 
   private:
@@ -78,7 +87,6 @@ class TriangleCrossings {
             return true;
         }
     };
-    static bool all(std::size_t, std::size_t) { return true; }
 
     struct Node {
         Box box;
@@ -118,25 +126,19 @@ class TriangleCrossings {
         return place;
     }
 
-    template <class Counts>
-    std::size_t crossings_of(std::size_t place, std::uint32_t triangle, const Box& box, const Counts& counts) const {
-        std::size_t crossings = 0;
-        crossings_of(place, triangle, box, counts, [&](std::uint32_t) { ++crossings; });
-        return crossings;
+    /// Shows `see` every triangle whose box meets that of `triangle`, until it returns false.
+    template <class See>
+    void look(std::uint32_t triangle, const See& see) const {
+        look(0, box_of(triangle), see);
     }
-    template <class Counts, class See>
-    void crossings_of(std::size_t place, std::uint32_t triangle, const Box& box, const Counts& counts,
-                      const See& see) const {
+    template <class See>
+    bool look(std::size_t place, const Box& box, const See& see) const {
         const Node& node = nodes_[place];
-        if (!node.box.meets(box)) return;
-        if (node.left != 0) {
-            crossings_of(node.left, triangle, box, counts, see);
-            return crossings_of(node.right, triangle, box, counts, see);
-        }
+        if (!node.box.meets(box)) return true;
+        if (node.left != 0) return look(node.left, box, see) && look(node.right, box, see);
         for (std::size_t i = node.begin; i < node.end; ++i)
-            if (order_[i] > triangle && box_of(order_[i]).meets(box) && counts(mesh_[triangle], mesh_[order_[i]]) &&
-                cross(triangle, order_[i]))
-                see(order_[i]);
+            if (box_of(order_[i]).meets(box) && !see(order_[i])) return false;
+        return true;
     }
 
     bool cross(std::uint32_t first, std::uint32_t second) const {
@@ -146,34 +148,52 @@ class TriangleCrossings {
         return edges_through(a, b) || edges_through(b, a);
     }
 
+    /// Returns whether an edge of one triangle, of those that do not touch a corner of the other, passes through it.
     bool edges_through(const Triangle& edges, const Triangle& wall) const {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t p = edges[k], q = edges[(k + 1) % 3];
-            const bool touches = std::ranges::find(wall, p) != wall.end() || std::ranges::find(wall, q) != wall.end();
-            if (!touches && passes(points_[p], points_[q], wall)) return true;
-        }
+        const Point &a = points_[wall[0]], &b = points_[wall[1]], &c = points_[wall[2]];
+        int side[3];
+        for (std::size_t k = 0; k < 3; ++k)
+            side[k] = std::ranges::find(wall, edges[k]) != wall.end() ? 0 : side_of(a, b, c, points_[edges[k]]);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (side[k] * side[(k + 1) % 3] < 0 && passes(points_[edges[k]], points_[edges[(k + 1) % 3]], wall))
+                return true;
         return false;
     }
 
-    /// Returns whether the segment from p to q passes through the inside of a triangle.
+    /// Returns whether the segment from p to q, which are on different sides of a triangle's plane, passes its inside.
     bool passes(const Point& p, const Point& q, const Triangle& wall) const {
         const Point &a = points_[wall[0]], &b = points_[wall[1]], &c = points_[wall[2]];
-        const long double above = volume(a, b, c, p), below = volume(a, b, c, q);
-        if (!((above > 0 && below < 0) || (above < 0 && below > 0))) return false;
-        const long double ab = volume(p, q, a, b), bc = volume(p, q, b, c), ca = volume(p, q, c, a);
-        return (ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0);
+        const int ab = side_of(p, q, a, b);
+        return ab != 0 && side_of(p, q, b, c) == ab && side_of(p, q, c, a) == ab;
     }
 
-    /// Returns six times the signed volume of a tetrahedron.
-    static long double volume(const Point& a, const Point& b, const Point& c, const Point& d) {
-        long double u[3], v[3], w[3];
+    /// Returns the sign of the volume of a tetrahedron. Double precision is asked first: it decides wherever its sum is
+    /// above what rounding may have made of it, at most 16 units of the sum of sizes.
+    static int side_of(const Point& a, const Point& b, const Point& c, const Point& d) {
+        double sizes = 0;
+        const double near = volume<double>(a, b, c, d, sizes);
+        if (std::abs(near) > 16 * std::numeric_limits<double>::epsilon() * sizes) return near > 0 ? 1 : -1;
+        long double exact_sizes = 0;
+        const long double exact = volume<long double>(a, b, c, d, exact_sizes);
+        return exact > 0 ? 1 : exact < 0 ? -1 : 0;
+    }
+
+    /// Returns six times the signed volume of a tetrahedron; `sizes` becomes the sum of its products' sizes.
+    template <class Real>
+    static Real volume(const Point& a, const Point& b, const Point& c, const Point& d, Real& sizes) {
+        Real u[3], v[3], w[3];
         for (std::size_t k = 0; k < 3; ++k) {
-            u[k] = static_cast<long double>(b[k]) - a[k];
-            v[k] = static_cast<long double>(c[k]) - a[k];
-            w[k] = static_cast<long double>(d[k]) - a[k];
+            u[k] = static_cast<Real>(b[k]) - a[k];
+            v[k] = static_cast<Real>(c[k]) - a[k];
+            w[k] = static_cast<Real>(d[k]) - a[k];
         }
-        return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
-               u[2] * (v[0] * w[1] - v[1] * w[0]);
+        Real sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+            sum += u[k] * (v[l] * w[m] - v[m] * w[l]);
+            sizes += std::abs(u[k]) * (std::abs(v[l] * w[m]) + std::abs(v[m] * w[l]));
+        }
+        return sum;
     }
 
     std::vector<Point> points_;

@@ -47,8 +47,9 @@ Running::Running(const std::string& program, std::vector<std::string> arguments,
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     const int out = options.stdout_descriptor >= 0 ? options.stdout_descriptor : fileno(out_.get());
+    const int err = options.stderr_descriptor >= 0 ? options.stderr_descriptor : fileno(err_.get());
     child_ = fork();
-    if (child_ == 0) become(program, pointers.data(), options, out, fileno(err_.get()));
+    if (child_ == 0) become(program, pointers.data(), options, out, err);
     if (child_ < 0) throw std::runtime_error("fork failed");
 }
 

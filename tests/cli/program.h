@@ -21,9 +21,9 @@ struct Outcome {
 };
 
 struct StartOptions {
-    std::filesystem::path folder{};          ///< working directory; empty: this process's
-    std::vector<std::string> environment{};  ///< "NAME=value", added to or replacing this process's
-    int stdout_descriptor = -1;              ///< instead of capturing; -1: capture
+    std::filesystem::path folder{};                      ///< working directory; empty: this process's
+    std::vector<std::string> environment{};              ///< "NAME=value", added to or replacing this process's
+    int stdout_descriptor = -1, stderr_descriptor = -1;  ///< instead of capturing; -1: capture
     bool close_stdout = false, close_stderr = false;
     std::uint64_t file_size_limit = 0;  ///< bytes; 0: none
 };

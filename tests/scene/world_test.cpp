@@ -54,13 +54,13 @@ TEST(World, WhatASceneSaysIsNotTurned) {
 }
 
 TEST(World, IsKeptWhereDefaultsAreWrittenOut) {
-    for (const std::string keys : {"", R"("gravity_keys": [{"t": 0, "gravity": [0, 0, -1]}], )",
+    for (const std::string more : {"", R"("gravity_keys": [{"t": 0, "gravity": [0, 0, -1]}], )",
                                    R"("wind": {"keys": [{"t": 0, "velocity": [1, 0, 0]}]}, )"}) {
-        const std::string text = R"({"up": "z", "lights": [], )" + keys + members;
+        const std::string text = R"({"up": "z", "lights": [], )" + more + members;
         const std::string resolved = resolved_scene(text);
         EXPECT_EQ(parse_scene(resolved), parse_scene(text)) << resolved;
         EXPECT_TRUE(read_scene_text(resolved, "s").warnings.size() == read_scene_text(text, "s").warnings.size());
-        EXPECT_EQ(resolved.find("\"gravity\":[0,0,-9.81") == std::string::npos, keys.starts_with("\"gravity_keys"))
+        EXPECT_EQ(resolved.find("\"gravity\":[0,0,-9.81") == std::string::npos, more.starts_with("\"gravity_keys"))
             << resolved;
     }
 }

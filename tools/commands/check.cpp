@@ -1,14 +1,10 @@
 #include <json/json.h>
-#include <unistd.h>
-
-#include <condition_variable>
-#include <mutex>
-#include <thread>
 
 #include "base/printable_text.h"
 #include "cloth/simulation_model.h"
 #include "options.h"
 #include "output/json_text.h"
+#include "output/slow_notice.h"
 #include "program.h"
 #include "streams.h"
 
@@ -37,33 +33,13 @@ std::vector<Compromise> known_compromises(const SceneResult& result) {
     return SimulationModel(*result.scene).compromises();
 }
 
-/// Tells a terminal, after some seconds, what takes so long: a mesh of a million triangles takes ten and more.
-class SlowNotice {
-  public:
-    explicit SlowNotice(const std::string& path) {
-        if (isatty(STDERR_FILENO) == 0) return;
-        waiting_ = std::jthread([path](const std::stop_token& ended) {
-            std::mutex mutex;
-            std::unique_lock lock(mutex);
-            std::condition_variable_any changed;
-            changed.wait_for(lock, ended, std::chrono::seconds(3), [] { return false; });
-            if (!ended.stop_requested()) print_message(printable(path) + ": still being read and checked ...");
-        });
-    }
-
-  private:
-    std::jthread waiting_;
-};
-
 /// Prints every error of every file on stderr, or as JSON on stdout.
 ExitCode check(const CheckOptions& options) {
     ExitCode code = ExitCode::ok;
     Json::Value report(Json::arrayValue);
     for (const std::string& path : scene_files(options.paths)) {
-        const SceneResult result = [&] {
-            const SlowNotice notice(path);
-            return read_scene(path, options.overrides);
-        }();
+        const SlowNotice notice(printable(path) + ": still being read and checked ...", print_message);
+        const SceneResult result = read_scene(path, options.overrides);
         if (!result.scene) code = result.unreadable || code == ExitCode::io ? ExitCode::io : ExitCode::scene;
         Json::Value row(Json::objectValue);
         row["file"] = path;
