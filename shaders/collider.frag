@@ -15,6 +15,8 @@ layout(location = 2) in vec2 on_plane;
 layout(location = 3) flat in vec4 albedo;
 layout(location = 0) out vec4 color;
 
+const float body_spread = 0.0625;  // of a roughness of 0.5
+
 void main() {
     vec3 to_eye = constants.eye.xyz - world;
     bool plane = collider_kind == kind_plane;
@@ -26,7 +28,7 @@ void main() {
         diffuse = lined(diffuse, grid_lines(cell, max(fwidth(cell), vec2(1e-6))));
     }
     Surface surface =
-        Surface(diffuse, normalize(normal), normalize(to_eye), 0.0, plane ? 0.0 : 0.12, 0.0, 1.0);
+        Surface(diffuse, normalize(normal), normalize(to_eye), 0.0, plane ? 1.0 : body_spread, 0.0, 1.0);
     color = vec4(shaded(surface, world), 1.0);
     if (plane) {
         float away = distance(world, frame[0].fade.xyz) / frame[0].fade.w;

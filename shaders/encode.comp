@@ -2,7 +2,8 @@
 // sample. Backdrop and floor show where samples are uncovered, and are drawn only here, since triangles for them would
 // cost twice as much. An ordered dither of one level (Bayer's 8 x 8 matrix) replaces rounding, which would show bands
 // in soft gradients. Where `shadowed`, the floor is under the first light's shadow map. Where `sampled`, the pass
-// averages four samples per pixel itself, since resolving them first takes the default device twice as long.
+// averages four samples per pixel itself, since resolving them first takes the default device twice as long. Where the
+// picture `has_alpha`, nothing is behind what is drawn: it is divided by the share of the pixel that it covers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/raster_types.h"
@@ -18,6 +19,7 @@ layout(constant_id = 25) const bool shadowed = false;
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool has_floor = true;
+layout(constant_id = 1) const bool has_alpha = false;
 PUSH_CONSTANTS(GridPush)  // pixels
 #include "include/strips.h"
 layout(constant_id = 24) const bool sampled = false;
@@ -55,10 +57,12 @@ void encode(ivec2 pixel, vec4 background, FloorConstants plane) {
     vec3 behind = backdrop(background, middle.y);
     if (has_floor) behind = floor_radiance(plane, middle, behind);
     vec3 radiance = drawn.xyz + (1.0 - drawn.w) * behind;
+    if (has_alpha) radiance = drawn.xyz / max(drawn.w, 0.125);  // a sample of four covers at least twice as much
     radiance = vec3(toned(radiance.x), toned(radiance.y), toned(radiance.z));
     vec3 levels = 255.0 * srgb(clamp(radiance, 0.0, 1.0));
     ivec3 bytes = ivec3(min(levels + threshold(uvec2(pixel)), 255.0));
-    pixels[pixel.y * push.grid.x + pixel.x] = uint(bytes.x | bytes.y << 8 | bytes.z << 16 | 0xff << 24);
+    int alpha = has_alpha ? int(255.0 * drawn.w + 0.5) : 0xff;
+    pixels[pixel.y * push.grid.x + pixel.x] = uint(bytes.x | bytes.y << 8 | bytes.z << 16 | alpha << 24);
 }
 
 void main() {

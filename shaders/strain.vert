@@ -51,7 +51,9 @@ void main() {
         if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
     ivec2 texel = particle_texel(particle);
     surface_normal = imageLoad(normal, texel).xyz;
-    place = push.place.x * strain_at(texel) + push.place.y;
+    float strain = strain_at(texel);
+    if (push.place.z > 0.0) strain = sign(strain) * push.place.w * log(1.0 + push.place.z * abs(strain));
+    place = push.place.x * strain + push.place.y;
     gl_Position = clip_position(world);
     gl_Position.z = depth_of_thickness(world, push.springs.w, gl_Position.w);
     gl_ClipDistance[0] = clip_distance(world, push.springs.w);

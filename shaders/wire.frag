@@ -40,6 +40,6 @@ void main() {
     vec3 albedo = mix(vec3(0.72, 0.74, 0.76), vec3(0.02, 0.05, 0.10), 0.9 * edge);
     float openness = 1.0 - (gl_FrontFacing ? hidden.x : hidden.y);
     Surface surface =
-        Surface(albedo, normalize(normal), normalize(constants.eye.xyz - world), 0.2, 0.0, 0.0, openness);
+        Surface(albedo, normalize(normal), normalize(constants.eye.xyz - world), 0.2, 1.0, 0.0, openness);
     color = vec4(shaded(surface, world), 1.0);
 }

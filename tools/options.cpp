@@ -90,7 +90,7 @@ void add_view_options(CLI::App& command, PictureView& view) {
                [&view](std::size_t place) { view.kind = view_spellings[place].value; });
     add_option(command, "--view-range", "PERCENT",
                "Strain at the end of the heat map, the same in every frame; what is beyond it has the end's colour. "
-               "Default: by weight, wind and stiffness of the scene",
+               "Default: a logarithmic scale that ends by weight, wind and stiffness of the scene",
                number("a strain in percent, above 0 and at most 1000", above_zero, 1000,
                       [&view](double percent) { view.range = percent / 100; }));
 }
@@ -262,6 +262,10 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
     add_view_options(command, scene.view);
     add_choice(command, "--samples", {"1", "4"}, "Samples per pixel; default: the scene's, else 4",
                [&scene](std::size_t place) { scene.samples = place == 0 ? 1 : 4; });
+    add_flag(command, "--draft",
+             "Pictures of half the scene's width and height with one sample per pixel, unless --size or --samples say "
+             "otherwise: about four times as fast to draw",
+             scene.draft);
 }
 
 void add_run_options(CLI::App& command, RunRequest& request) {

@@ -13,7 +13,8 @@ class PngWriter : public FrameWriter {
     PngWriter(OutputFolder& folder, const WrittenRun& run)
         : width_(run.width),
           height_(run.height),
-          sequence_(folder, frame_digits(run.end), std::clamp(std::thread::hardware_concurrency(), 1u, 4u), run.key) {}
+          sequence_(folder, frame_digits(run.end), std::clamp(std::thread::hardware_concurrency(), 1u, 4u), run.key,
+                    run.alpha ? PngAlpha::kept : PngAlpha::dropped) {}
 
     void add(const WrittenFrame& frame) override {
         std::vector<std::uint8_t> rgba = sequence_.take_buffer(frame.rgba.size());

@@ -44,6 +44,7 @@ struct WrittenRun {
     bool deflates = false;  ///< archives are compressed
     Up up = Up::y;          ///< of the world in whose coordinates the files are
     std::uint32_t width = 0, height = 0;
+    bool alpha = false;             ///< pictures have an alpha channel
     std::string key;                ///< the run's key (kept_frames.h)
     std::string scene, parameters;  ///< JSON: the scene with its defaults written out; the run's choices
     std::uint32_t seed = 0;         ///< determines the gusts

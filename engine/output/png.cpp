@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -38,15 +39,12 @@ void set_text(spng_ctx* context, std::string& text) {
     check(spng_set_text(context, &chunk, 1), "set the text chunk");
 }
 
-void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, const std::uint8_t* rgba) {
-    std::vector<std::uint8_t> row(size_t{width} * 3);
+void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, const std::uint8_t* rgba,
+                 std::size_t channels) {
+    std::vector<std::uint8_t> row(width * channels);
     for (std::uint32_t y = 0; y < height; ++y) {
         std::uint8_t* target = row.data();
-        for (std::uint32_t x = 0; x < width; ++x, rgba += 4, target += 3) {
-            target[0] = rgba[0];
-            target[1] = rgba[1];
-            target[2] = rgba[2];
-        }
+        for (std::uint32_t x = 0; x < width; ++x, rgba += 4, target += channels) std::copy_n(rgba, channels, target);
         const int result = spng_encode_row(context, row.data(), row.size());
         if (result != SPNG_EOI || y + 1 != height) check(result, "encode a row");
     }
@@ -55,7 +53,7 @@ void encode_rows(spng_ctx* context, std::uint32_t width, std::uint32_t height, c
 }  // namespace
 
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                std::vector<std::uint8_t>& png, const std::string& text) {
+                std::vector<std::uint8_t>& png, const std::string& text, PngAlpha alpha) {
     if (width == 0 || height == 0 || width > side_limit || height > side_limit) {
         throw std::invalid_argument(fmt::format("PNG: size {}x{} is not in 1..{}", width, height, side_limit));
     }
@@ -69,7 +67,8 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     header.width = width;
     header.height = height;
     header.bit_depth = 8;
-    header.color_type = SPNG_COLOR_TYPE_TRUECOLOR;
+    const bool kept = alpha == PngAlpha::kept;
+    header.color_type = kept ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA : SPNG_COLOR_TYPE_TRUECOLOR;
     check(spng_set_png_stream(context.get(), append_bytes, &png), "set the stream");
     check(spng_set_ihdr(context.get(), &header), "set the header");
     check(spng_set_srgb(context.get(), 0), "set the sRGB chunk");
@@ -82,7 +81,7 @@ void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::
     check(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_NONE), "set the filter");
     check(spng_encode_image(context.get(), nullptr, 0, SPNG_FMT_PNG, SPNG_ENCODE_PROGRESSIVE | SPNG_ENCODE_FINALIZE),
           "begin");
-    encode_rows(context.get(), width, height, rgba.data());
+    encode_rows(context.get(), width, height, rgba.data(), kept ? 4 : 3);
 }
 
 }  // namespace drape

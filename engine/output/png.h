@@ -7,11 +7,14 @@
 
 namespace drape {
 
-// Encodes RGBA8 (sRGB-encoded, rows tightly packed from the top) as an RGB PNG with an sRGB chunk; alpha is dropped.
+// Whether a PNG has the alpha channel, of straight alpha, or drops it.
+enum class PngAlpha { dropped, kept };
+
+// Encodes RGBA8 (sRGB-encoded, rows tightly packed from the top) as an RGB or RGBA PNG with an sRGB chunk.
 // `png` is replaced; its memory is reused. `text`, unless empty, becomes a tEXt chunk with the keyword "drape": Latin-1
 // without control characters. The bytes depend on the pixels and the text alone (and on the zlib that is linked).
 // Throws std::invalid_argument when the sizes do not fit, OutputError when the encoder fails.
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                std::vector<std::uint8_t>& png, const std::string& text = {});
+                std::vector<std::uint8_t>& png, const std::string& text = {}, PngAlpha alpha = PngAlpha::dropped);
 
 }  // namespace drape

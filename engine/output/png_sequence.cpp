@@ -19,8 +19,12 @@ bool is_frame_file_name(std::string_view name) {
     return is_cloth_frame_file_name(name, "frame", "png") && name.find('_') == name.rfind('_');
 }
 
-PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key)
-    : folder_(folder), digits_(digits), pending_limit_(2 * std::max(1u, worker_count)), run_key_(std::move(run_key)) {
+PngSequence::PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key, PngAlpha alpha)
+    : folder_(folder),
+      digits_(digits),
+      pending_limit_(2 * std::max(1u, worker_count)),
+      run_key_(std::move(run_key)),
+      alpha_(alpha) {
     for (unsigned worker = 0; worker < std::max(1u, worker_count); ++worker) {
         workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
     }
@@ -105,7 +109,7 @@ void PngSequence::keep_result(FileRecord record, std::vector<std::uint8_t> buffe
 
 FileRecord PngSequence::write(const Frame& frame, std::vector<std::uint8_t>& png) {
     const std::string text = run_key_.empty() ? std::string() : frame_text(run_key_, frame.number, frame.values);
-    encode_png(frame.width, frame.height, frame.rgba, png, text);
+    encode_png(frame.width, frame.height, frame.rgba, png, text, alpha_);
     return write_file(folder_, frame_file_name(frame.number, digits_), std::as_bytes(std::span(png)));
 }
 

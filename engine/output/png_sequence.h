@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "output/frame_writer.h"
+#include "output/png.h"
 
 namespace drape {
 
@@ -27,7 +28,8 @@ class PngSequence {
   public:
     // A worker_count of 0 means 1. The folder must outlive the sequence. `run_key`, unless empty, goes into every file
     // (kept_frames.h), so that a later run can tell whose frames these are.
-    PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key = {});
+    PngSequence(OutputFolder& folder, int digits, unsigned worker_count, std::string run_key = {},
+                PngAlpha alpha = PngAlpha::dropped);
 
     // Returns a buffer of so many bytes with arbitrary content, recycled from a written frame when there is one.
     std::vector<std::uint8_t> take_buffer(size_t bytes);
@@ -68,6 +70,7 @@ class PngSequence {
     int digits_;
     size_t pending_limit_;
     std::string run_key_;
+    PngAlpha alpha_;
 
     std::mutex mutex_;
     std::condition_variable_any frame_waits_;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "world/motion.h"
+
 namespace drape {
 namespace {
 
@@ -71,6 +73,18 @@ PixelPosition project(const Camera& camera, std::uint32_t width, std::uint32_t h
     const Eigen::Vector4d clip = projection(camera, width, height) * (view(camera) * vector(point).homogeneous());
     if (!(clip.w() > 0)) return {0, 0, std::numeric_limits<double>::infinity()};
     return {(clip.x() / clip.w() + 1) * 0.5 * width, (clip.y() / clip.w() + 1) * 0.5 * height, clip.z() / clip.w()};
+}
+
+Camera camera_at(const Camera& camera, double time) {
+    Camera still = camera;
+    still.keys.clear();
+    if (camera.keys.empty()) return still;
+    MotionPath path;
+    for (const CameraKey& key : camera.keys) path.keys.push_back({key.time, key.position, key.target});
+    const MotionKey now = key_at(path, time);
+    still.position = now.translate;
+    still.target = now.rotate;
+    return still;
 }
 
 }  // namespace drape

@@ -30,4 +30,7 @@ struct PixelPosition {
 };
 PixelPosition project(const Camera& camera, std::uint32_t width, std::uint32_t height, const Vec3& point);
 
+/// Returns the camera as it stands at `time` (s), without keys.
+Camera camera_at(const Camera& camera, double time);
+
 }  // namespace drape

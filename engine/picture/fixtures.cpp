@@ -148,10 +148,22 @@ class Fitter {
     std::size_t up_;  ///< the coordinate that grows upwards
 };
 
+/// The rim alone shows where a blade is and hides no cloth.
+void add_blade(const Cutter& cutter, std::vector<Fixture>& found) {
+    constexpr Vec3 steel{0.62, 0.66, 0.70};
+    const auto& [a, b, c] = cutter.triangle;
+    const double longest = std::max({length(sum(b, a, -1)), length(sum(c, b, -1)), length(sum(a, c, -1))});
+    const Vec3 centroid = sum({0, 0, 0}, sum(sum(a, b), c), 1.0 / 3);
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}})
+        found.push_back({from, to, 0.0015 * longest, cutter.path, centroid, cutter.begin, cutter.end, steel});
+}
+
 }  // namespace
 
 std::vector<Fixture> fixtures(const SceneDescription& scene) {
     std::vector<Fixture> found;
+    if (scene.image.blades)
+        for (const Cutter& cutter : scene.cutters) add_blade(cutter, found);
     std::size_t pins = 0;
     for (const Cloth& cloth : scene.cloths) pins += cloth.pins.size();
     if (!scene.image.fixtures || pins > most_pins) return found;
@@ -166,11 +178,13 @@ Collider posed(const Fixture& fixture, double time) {
         return sum(sum(fixture.pivot, motion.translation), turned);
     };
     Collider collider;
-    collider.color = {0.30, 0.29, 0.28};
+    collider.color = fixture.color;
+    const bool seen = time >= fixture.begin && time <= fixture.end;
+    const double radius = seen ? fixture.radius : 0;  // a shape without a size covers nothing
     if (fixture.from == fixture.to)
-        collider.shape = Sphere{moved(fixture.from), fixture.radius};
+        collider.shape = Sphere{moved(fixture.from), radius};
     else
-        collider.shape = Capsule{moved(fixture.from), moved(fixture.to), {fixture.radius, fixture.radius}};
+        collider.shape = Capsule{moved(fixture.from), moved(fixture.to), {radius, radius}};
     return collider;
 }
 

@@ -207,6 +207,9 @@ BoundingSphere scene_extent(const SceneDescription& scene) {
 Camera picture_camera(const SceneDescription& scene, std::uint32_t width, std::uint32_t height) {
     Camera camera = scene.camera ? *scene.camera : automatic_camera(scene, static_cast<double>(width) / height);
     camera.up = in_world(scene.up, {0, 1, 0});
+    if (camera.keys.empty()) return camera;
+    camera.position = camera.keys.front().position;
+    camera.target = camera.keys.front().target;
     return camera;
 }
 

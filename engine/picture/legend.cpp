@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 namespace drape {
 
@@ -52,6 +53,7 @@ struct Canvas {
             std::uint8_t& level = rgba[4 * (std::size_t{y} * width + x) + channel];
             level = static_cast<std::uint8_t>(std::lround(share * color[channel] + (1 - share) * level));
         }
+        rgba[4 * (std::size_t{y} * width + x) + 3] = 255;
     }
     void fill(std::uint32_t x, std::uint32_t y, std::uint32_t columns, std::uint32_t rows, const Color& color,
               double share = 1) {
@@ -85,8 +87,10 @@ void draw_legend(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_
     Canvas canvas{rgba, width, height};
     const std::uint32_t unit = letter_scale(std::min(width, height));
     const LegendBar bar = legend_bar(width, height);
-    const std::array<std::string, 3> labels{percent_text(scale.high), percent_text(0.5 * (scale.low + scale.high)),
-                                            percent_text(scale.low)};
+    std::vector<double> strains{scale.high, 0.5 * (scale.low + scale.high), scale.low};
+    if (scale.knee > 0 && scale.low == 0) strains = {scale.high, 0.1 * scale.high, 0.01 * scale.high, 0};
+    std::vector<std::string> labels;
+    for (const double strain : strains) labels.push_back(percent_text(strain));
     std::size_t letters = scale.title.size();  // of the widest line, counted from the bar
     for (const std::string& label : labels) letters = std::max(letters, label.size() + 2);
     const auto columns = static_cast<std::uint32_t>(letters) * advance * unit;
@@ -96,7 +100,8 @@ void draw_legend(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_
         canvas.fill(bar.x, bar.y + row, bar.width, 1,
                     color_at(*scale.map, 1 - static_cast<double>(row) / (bar.height - 1)));
     for (std::uint32_t i = 0; i < labels.size(); ++i) {
-        const std::uint32_t at = bar.y + i * (bar.height - 1) / 2;
+        const double down = (1 - scale.place_of(strains[i])) * (bar.height - 1);
+        const std::uint32_t at = bar.y + static_cast<std::uint32_t>(down + 1e-6);
         canvas.fill(bar.x + bar.width, at - unit / 2, 2 * unit, unit, ink);
         canvas.write(bar.x + bar.width + 5 * unit, at - glyph_height * unit / 2, labels[i], unit);
     }

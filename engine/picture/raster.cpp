@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "include/tone.h"
+#include "picture/cloth_look.h"
 #include "picture/legend.h"
 #include "picture/raster_frame.h"
 #include "picture/raster_recording.h"
@@ -24,6 +24,7 @@ struct RasterPass::Targets {
     Handle colliders;    ///< invalid where no body is drawn
     Handle meshes;       ///< invalid where no mesh is
     Handle heat_colors;  ///< invalid where the view is no heat map
+    Handle textures;     ///< invalid where none is shown
     Handle body_tiles, tiles;
     Handle depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
@@ -47,76 +48,6 @@ std::string shadow_skip_reason(const SceneDescription& scene, const RasterOption
     return {};
 }
 
-glsl::uint pattern_number(Pattern pattern) {
-    switch (pattern) {
-        case Pattern::plain:
-            return glsl::pattern_plain;
-        case Pattern::checker:
-            return glsl::pattern_checker;
-        case Pattern::stripes:
-            return glsl::pattern_stripes;
-    }
-    return glsl::pattern_plain;
-}
-
-glsl::ClothPush cloth_push(const RasterCloth& cloth) {
-    const auto u = static_cast<float>(cloth.size_u);
-    const auto v = static_cast<float>(cloth.size_v);
-    // Folds are searched for at a distance of a sixteenth of the cloth.
-    const std::uint32_t reach = std::max(1u, std::max(cloth.columns, cloth.rows) / 16);
-    return {{cloth.columns, cloth.rows, pattern_number(cloth.appearance.pattern), reach},
-            {u, v, std::min(u, v) / 8, static_cast<float>(cloth.thickness)},
-            linear_color(cloth.appearance.front),
-            linear_color(cloth.appearance.back),
-            linear_color(cloth.appearance.second)};
-}
-
-glsl::StrainPush strain_push(const RasterCloth& cloth, const StrainScale& scale) {
-    const double range = scale.high - scale.low;
-    return {{cloth.columns, cloth.rows, 0, 0},
-            {static_cast<float>(cloth.rest_lengths[0]), static_cast<float>(cloth.rest_lengths[1]), 0,
-             static_cast<float>(cloth.thickness)},
-            {static_cast<float>(1 / range), static_cast<float>(-scale.low / range), 0, 0}};
-}
-
-/// Returns the colours as radiance: the tone curve turns them into the map's own colours.
-std::array<glsl::vec4, glsl::heat_color_count> heat_colors(const ColorMap& map) {
-    std::array<glsl::vec4, glsl::heat_color_count> colors{};
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-        const std::array<double, 3> shown = color_at(map, static_cast<double>(i) / (colors.size() - 1.0));
-        const glsl::vec4 color = linear_color({shown[0] / 255, shown[1] / 255, shown[2] / 255});
-        colors[i] = {glsl::untoned(color.x), glsl::untoned(color.y), glsl::untoned(color.z), 0};
-    }
-    return colors;
-}
-
-struct ClothShaders {
-    const char *vertex, *fragment;
-    bool lit;
-};
-
-ClothShaders cloth_shaders(View view) {
-    switch (view) {
-        case View::stretch:
-        case View::warp:
-        case View::weft:
-            return {"strain.vert", "strain.frag", false};
-        case View::wire:
-            return {"cloth.vert", "wire.frag", true};
-        case View::normals:
-            return {"cloth.vert", "normals.frag", false};
-        case View::shaded:
-            break;
-    }
-    return {"cloth.vert", "cloth.frag", true};
-}
-
-std::uint32_t strain_number(View view) {
-    return static_cast<std::uint32_t>(view == View::warp   ? glsl::strain_of_warp
-                                      : view == View::weft ? glsl::strain_of_weft
-                                                           : glsl::strain_of_both);
-}
-
 }  // namespace
 
 const vulkan::GraphicsPipeline& RasterPass::ClothPipelines::of(const RasterCloth& cloth) const {
@@ -130,7 +61,7 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       height_(height),
       samples_(samples),
       tiles_(width, height),
-      camera_(picture_camera(scene, width, height)),
+      frame_view_(scene, {picture_camera(scene, width, height), scene_extent(scene), width, height, options.shift}),
       resolves_(samples > 1 && !device.capabilities().samples_in_shaders),
       bodies_{scene.colliders, fixtures(scene), mesh_corners(scene.colliders, 0),
               std::ranges::any_of(scene.colliders, &Collider::deforms)},
@@ -139,24 +70,26 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       scale_(strain_scale(options.view, scene)),
       pipelines_{.compute = Pipelines(device)} {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
-    const PictureGeometry picture{camera_, scene_extent(scene), width, height, options.shift};
-    bodies_.plane_extent = plane_extent(picture.camera, picture.extent);
-    const std::optional<std::size_t> floor = floor_of(scene.colliders, picture.camera);
-    constants_ = frame_constants(scene, picture, floor ? &scene.colliders[*floor] : nullptr);
-    bodies_.has_floor = floor.has_value();
+    const std::optional<std::size_t> floor = frame_view_.floor();
+    if (shows_textures(view_, scene.cloths)) textures_.emplace(scene.cloths);
+    bodies_.has_alpha = scene.image.alpha;
+    bodies_.has_floor = floor && !bodies_.has_alpha;
     if (floor) bodies_.colliders.erase(bodies_.colliders.begin() + static_cast<std::ptrdiff_t>(*floor));
     make_pipelines(device, scene, options);
     make_compute_pipelines(options.cut);
 }
 
-void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options,
-                                      vulkan::GraphicsState state, vulkan::GraphicsState shadow_state) {
+void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const SceneDescription& scene,
+                                      const RasterOptions& options, vulkan::GraphicsState state,
+                                      vulkan::GraphicsState shadow_state) {
     const ClothShaders shaders = cloth_shaders(view_);
     const bool strain = scale_.has_value(), shadow = casts_shadow();
     state.vertex = {shaders.vertex}, state.fragment = {shaders.fragment};
     shadow_state.vertex = {"shadow_cloth.vert"};
     if (!shaders.lit) state.constants.clear();
     if (strain) state.constants = {{"shown", strain_number(view_)}};
+    const auto looks = look_constants(view_, scene.cloths);
+    state.constants.insert(state.constants.end(), looks.begin(), looks.end());
     const auto make = [&](const char* name, vulkan::GraphicsState of,
                           std::initializer_list<vulkan::SpecializationConstant> more = {}) {
         of.constants.insert(of.constants.end(), more);
@@ -191,7 +124,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     shadow_state.color_format = shadow_format;
     shadow_state.samples = VK_SAMPLE_COUNT_1_BIT;
     shadow_state.fragment = {"shadow.frag"};
-    if (!scene.cloths.empty()) make_cloth_pipelines(device, options, state, shadow_state);
+    if (!scene.cloths.empty()) make_cloth_pipelines(device, scene, options, state, shadow_state);
     state.vertex = {"collider.vert"}, state.fragment = {"collider.frag"};
     shadow_state.vertex = {"shadow_collider.vert"};
     for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
@@ -217,6 +150,7 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
 void RasterPass::make_compute_pipelines(bool cut) {
     pipelines_.encoding = &pipelines_.compute.get("encode.comp", [this](std::string_view name) {
         if (name == "has_floor") return std::uint32_t{bodies_.has_floor};
+        if (name == "has_alpha") return std::uint32_t{bodies_.has_alpha};
         if (name == "shadowed") return std::uint32_t{casts_shadow() && bodies_.has_floor};
         if (name == "sampled") return std::uint32_t{is_sampled()};
         return name == "strip_length" ? pipelines_.compute.strip_length() : tiles_.constant(name);
@@ -249,7 +183,7 @@ RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const
     for (int moment = 0; moment <= moments; ++moment)
         for (const double time = end * moment / moments; const Collider& body : drawn_bodies(time)) {
             std::uint32_t& most = columns[static_cast<std::size_t>(body.kind())];
-            most = std::max(most, round_columns(radius_in_pixels(body, time, camera_, height_)));
+            most = std::max(most, round_columns(radius_in_pixels(body, time, frame_view_.camera_at(time), height_)));
         }
     return columns;
 }
@@ -266,6 +200,9 @@ RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
+    if (textures_)
+        targets.textures =
+            graph.buffer<glsl::uint>(textures_name, textures_->halves().size(), graph::Lifetime::constant);
     targets.body_tiles = graph.buffer<glsl::uint>(body_tiles_name, tiles_.count(), graph::Lifetime::host_input);
     targets.tiles = graph.buffer<glsl::uint>(tiles_name, tiles_.count(), graph::Lifetime::transient);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
@@ -383,6 +320,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
             if (targets.meshes.valid()) setup.read(targets.meshes, Access::vertex_read);
             if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
+            if (targets.textures.valid()) setup.read(targets.textures, Access::fragment_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.normal, Access::vertex_read);
@@ -417,10 +355,11 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
         bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
         if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
         if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
+        if (textures_) bound.push_back({"texels", targets.textures});
         if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_shares", cloth.spring_shares});
         context.bind(pipeline, bound);
         if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
-        if (!scale_) context.push(pipeline, cloth_push(cloth));
+        if (!scale_) context.push(pipeline, cloth_push(cloth, textures_ ? textures_->place(cloth) : glsl::uvec4{}));
         draw_cloth(context, cloth.indices, cloth.index_count);
     }
     draw_bodies(context, targets, pipelines_.draws, shared);
@@ -440,6 +379,7 @@ void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets
 void RasterPass::upload(const graph::ResourcePool& pool) const {
     if (!bodies_.mesh_corners.empty() && !bodies_.deforms)
         vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(bodies_.mesh_corners)));
+    if (textures_) vulkan::upload(pool.device(), pool.buffer(textures_name), std::as_bytes(textures_->halves()));
 }
 
 Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {
@@ -468,10 +408,12 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
     const std::vector<Collider> bodies = drawn_bodies(time);
-    const std::vector<glsl::ColliderInstance> instances = collider_instances(bodies, bodies_.plane_extent, time);
-    const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, camera_);
+    const std::vector<glsl::ColliderInstance> instances =
+        collider_instances(bodies, frame_view_.plane_extent_at(time), time);
+    const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, frame_view_.camera_at(time));
+    const glsl::FrameConstants constants = frame_view_.constants_at(time);
     write(body_tiles_name, std::as_bytes(std::span(marks)));
-    write(frame_name, std::as_bytes(std::span(&constants_, 1)));
+    write(frame_name, std::as_bytes(std::span(&constants, 1)));
     if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
     if (bodies_.deforms) {
         const std::vector<glsl::MeshCorner> corners = mesh_corners(bodies_.colliders, time);

@@ -16,28 +16,15 @@
 #include "picture/collider_mesh.h"
 #include "picture/fixtures.h"
 #include "picture/picture_tiles.h"
+#include "picture/raster_cloth.h"
+#include "picture/raster_frame.h"
 #include "picture/strain_scale.h"
+#include "picture/textures.h"
 #include "shared/raster_types.h"
 #include "solver/pass_kit.h"
 #include "vulkan/pipeline.h"
 
 namespace drape {
-
-/// A cloth as the raster pass sees it. Images have one texel per particle, rgba32f: position (xyz metres) and normal
-/// (xyz unit, pointing to the front; zero where there is none). Indices are uint32, row * columns + column, corners of
-/// a triangle counter-clockwise seen from the front.
-struct RasterCloth {
-    std::string name;
-    std::uint32_t columns = 0, rows = 0;
-    double size_u = 1, size_v = 1;  ///< m along columns, rows, undeformed
-    double thickness = 0;  ///< m; a collider that its triangles cut into is drawn farther away by this distance
-    Appearance appearance;
-    graph::Handle position, normal, indices;
-    std::uint32_t index_count = 0;
-    graph::Handle cut_vertices = {};   ///< valid on a cut cloth: the vertices with indices from columns * rows on
-    graph::Handle spring_shares = {};  ///< valid with holes or cuts: 0 where a spring does not exist
-    std::array<double, 2> rest_lengths{0, 0};  ///< m, of springs along columns, rows; 0: no such springs
-};
 
 struct RasterOptions {
     bool shadow = true;
@@ -61,7 +48,8 @@ class RasterPass {
     RasterPass& operator=(const RasterPass&) = delete;
 
     /// Declares the frame's host inputs, the attachments and the passes of the stages "shadow" and "raster"; returns
-    /// the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded), rows from the top, tightly packed.
+    /// the host_output buffer `readback_name`: width x height RGBA8 (sRGB encoded, straight alpha), rows from the top,
+    /// tightly packed.
     /// The graph's plans may run as long as this object lives.
     graph::Handle add(graph::Graph& graph, std::span<const RasterCloth> cloths) const;
 
@@ -86,6 +74,7 @@ class RasterPass {
     static constexpr const char* heat_colors_name = "raster/heat colors";
     static constexpr const char* body_tiles_name = "raster/tiles of bodies";
     static constexpr const char* tiles_name = "raster/tiles";
+    static constexpr const char* textures_name = "raster/textures";
     static constexpr const char* light_name = "light";  ///< radiance
     static constexpr const char* resolved_name = "light/resolved";
     static constexpr const char* depth_name = "depth";
@@ -106,8 +95,8 @@ class RasterPass {
         const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
     };
 
-    void make_cloth_pipelines(const vulkan::Device& device, const RasterOptions& options, vulkan::GraphicsState state,
-                              vulkan::GraphicsState shadow_state);
+    void make_cloth_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options,
+                              vulkan::GraphicsState state, vulkan::GraphicsState shadow_state);
     void make_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options);
     void make_compute_pipelines(bool cut);
     Targets declare(graph::Graph& graph) const;
@@ -130,7 +119,7 @@ class RasterPass {
         std::vector<glsl::MeshCorner> mesh_corners;  ///< where nothing deforms; else those of the start
         bool deforms;                                ///< some mesh does: its corners are told for every frame
         bool has_floor = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
-        PlaneExtent plane_extent{};
+        bool has_alpha = false;  ///< neither that nor the backdrop is drawn
     };
     struct AllPipelines {
         Pipelines compute;
@@ -146,11 +135,11 @@ class RasterPass {
 
     std::uint32_t width_, height_, samples_;
     PictureTiles tiles_;
-    Camera camera_;
+    FrameView frame_view_;
     bool resolves_;  ///< the samples, where the encoding pass cannot read them
     Bodies bodies_;
-    glsl::FrameConstants constants_;
-    std::string shadow_skip_reason_;  ///< empty: there is a shadow
+    std::optional<Textures> textures_;  ///< what the cloths show, if anything
+    std::string shadow_skip_reason_;    ///< empty: there is a shadow
     View view_;
     std::optional<StrainScale> scale_;  ///< set for a heat map
     AllPipelines pipelines_;

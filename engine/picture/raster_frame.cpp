@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/vectors.h"
 #include "cloth/texels.h"
@@ -138,6 +139,18 @@ void write_floor(const SceneDescription& scene, const Collider& collider, const 
     if (!scene.lights.empty()) write_floor_shadow(scene, picture.extent, {x, normal, z, pose.center}, floor);
 }
 
+/// Returns whether something holds of a camera wherever it is examined on its way.
+bool stays(const Camera& camera, const std::function<bool(const Camera&)>& holds) {
+    constexpr int moments = 16;  // from key to key
+    bool all = holds(camera_at(camera, 0));
+    for (std::size_t k = 0; k + 1 < camera.keys.size(); ++k)
+        for (int moment = 0; moment <= moments; ++moment) {
+            const double from = camera.keys[k].time, to = camera.keys[k + 1].time;
+            all = all && holds(camera_at(camera, from + (to - from) * moment / moments));
+        }
+    return all;
+}
+
 }  // namespace
 
 std::uint32_t light_count(const SceneDescription& scene) {
@@ -165,9 +178,12 @@ std::optional<std::size_t> floor_of(const std::vector<Collider>& colliders, cons
         if (!plane || !collider.path.keys.empty()) continue;
         const ColliderPose pose = collider_pose(collider, 0);
         const Vec3 normal = rotate(pose.rotation, plane->normal);
-        const double height = dot(normal, sum(camera.position, pose.center, -1));
-        // Seen from lower down, its pixels would be computed from too few digits.
-        if (height > 1e-3 * length(sum(camera.position, camera.target, -1))) return i;
+        const auto is_above = [&](const Camera& eye) {
+            const double height = dot(normal, sum(eye.position, pose.center, -1));
+            // Seen from lower down, its pixels would be computed from too few digits.
+            return height > 1e-3 * length(sum(eye.position, eye.target, -1));
+        };
+        if (stays(camera, is_above)) return i;
     }
     return std::nullopt;
 }
@@ -197,5 +213,28 @@ glsl::FrameConstants frame_constants(const SceneDescription& scene, const Pictur
     if (floor) write_floor(scene, *floor, picture, constants);
     return constants;
 }
+
+FrameView::FrameView(const SceneDescription& scene, const PictureGeometry& picture)
+    : picture_(picture), floor_(floor_of(scene.colliders, picture.camera)) {
+    light_.up = scene.up;
+    light_.lights = scene.lights;
+    light_.ambient = scene.ambient;
+    light_.ambient_ground = scene.ambient_ground;
+    light_.image = scene.image;
+    if (floor_) floor_body_ = scene.colliders[*floor_];
+    still_ = constants_from(camera_at(0));
+}
+
+glsl::FrameConstants FrameView::constants_from(const Camera& camera) const {
+    PictureGeometry picture = picture_;
+    picture.camera = camera;
+    return frame_constants(light_, picture, floor_body_ ? &*floor_body_ : nullptr);
+}
+
+glsl::FrameConstants FrameView::constants_at(double time) const {
+    return picture_.camera.keys.empty() ? still_ : constants_from(camera_at(time));
+}
+
+PlaneExtent FrameView::plane_extent_at(double time) const { return plane_extent(camera_at(time), picture_.extent); }
 
 }  // namespace drape

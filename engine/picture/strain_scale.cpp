@@ -10,14 +10,15 @@ namespace drape {
 
 namespace {
 
-constexpr double smallest_range = 1e-3, largest_range = 0.5, gathered_weights = 20;
+constexpr double smallest_range = 5e-3, largest_range = 1, gathered_weights = 100, gathered_wind = 5;
 
 /// Returns the load, N/m, on an edge that bears the cloth's weight, multiplied as pins and folds concentrate it, or the
 /// wind's push.
 double edge_force(const Cloth& cloth, const SceneDescription& scene) {
     const double fastest = fastest_wind(scene.wind);
     const double pressure = 0.5 * scene.wind.air_density * scene.wind.drag * fastest * fastest;
-    return std::max(gathered_weights * cloth.areal_density * length(strongest_gravity(scene)), pressure) *
+    return std::max(gathered_weights * cloth.areal_density * length(strongest_gravity(scene)),
+                    gathered_wind * pressure) *
            std::max(cloth.size[0], cloth.size[1]);
 }
 
@@ -39,11 +40,18 @@ double default_strain_range(const SceneDescription& scene) {
     return rounded_up(std::clamp(largest, smallest_range, largest_range));
 }
 
+double StrainScale::place_of(double strain) const {
+    if (knee == 0) return (strain - low) / (high - low);
+    const double share = std::copysign(std::log1p(std::abs(strain) / knee) / std::log1p(high / knee), strain);
+    return low < 0 ? 0.5 + 0.5 * share : share;
+}
+
 std::optional<StrainScale> strain_scale(const PictureView& view, const SceneDescription& scene) {
     if (!view.shows_strain()) return std::nullopt;
     const double range = view.range > 0 ? view.range : default_strain_range(scene);
-    if (view.kind == View::stretch) return StrainScale{"stretch", &viridis, 0, range};
-    return StrainScale{view.kind == View::warp ? "warp strain" : "weft strain", &cool_warm, -range, range};
+    const double knee = view.range > 0 ? 0 : range / knees_to_end;
+    if (view.kind == View::stretch) return StrainScale{"stretch", &viridis, 0, range, knee};
+    return StrainScale{view.kind == View::warp ? "warp strain" : "weft strain", &cool_warm, -range, range, knee};
 }
 
 }  // namespace drape

@@ -46,6 +46,8 @@ std::string given_hash(ClothKey key, const Cloth& cloth) {
             return has_skin(cloth) ? hash_of(cloth.particle_friction) : "";
         case ClothKey::particle_thickness:
             return has_skin(cloth) ? hash_of(cloth.particle_thickness) : "";
+        case ClothKey::appearance:
+            return cloth.appearance.image ? hash_of(cloth.appearance.image->rgb) : "";
         // The scene's text contains these values.
         case ClothKey::name:
         case ClothKey::grid:
@@ -63,7 +65,6 @@ std::string given_hash(ClothKey key, const Cloth& cloth) {
         case ClothKey::velocity:
         case ClothKey::tear:
         case ClothKey::pins:
-        case ClothKey::appearance:
             return "";
     }
     return "";
@@ -92,8 +93,13 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
             }
     }
     loaded.hash = run_key(hashed);
-    if (request.image_size) loaded.description.image.size = *request.image_size;
-    if (request.samples) loaded.description.image.samples = *request.samples;
+    ImageSettings& image = loaded.description.image;
+    if (request.draft) {
+        for (std::uint32_t& side : image.size) side = std::max(1u, side / 2);
+        image.samples = 1;
+    }
+    if (request.image_size) image.size = *request.image_size;
+    if (request.samples) image.samples = *request.samples;
     return loaded;
 }
 

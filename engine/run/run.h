@@ -32,6 +32,7 @@ struct SceneRequest {
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
+    bool draft = false;  ///< pictures of half the width and height, of one sample, where nothing else is said
     PictureView view;
     std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation

@@ -21,8 +21,9 @@ namespace {
 std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded) {
     std::vector<std::string> overrides = request.overrides;
     const ImageSettings& image = loaded.description.image;
-    if (request.image_size) overrides.push_back(fmt::format("/image/size=[{},{}]", image.size[0], image.size[1]));
-    if (request.samples) overrides.push_back(fmt::format("/image/samples={}", image.samples));
+    if (request.image_size || request.draft)
+        overrides.push_back(fmt::format("/image/size=[{},{}]", image.size[0], image.size[1]));
+    if (request.samples || request.draft) overrides.push_back(fmt::format("/image/samples={}", image.samples));
     std::istringstream text(resolved_scene(loaded.text, overrides, scene_folder(request.path)));
     Json::Value value;
     text >> value;
@@ -116,6 +117,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.fps = scene.time.fps;
     run.cuts = scene.comes_apart();
     run.width = scene.image.size[0], run.height = scene.image.size[1];
+    run.alpha = scene.image.alpha;
     run.deflates = request.deflates;
     run.key = manifest.run_key;
     run.seed = scene.wind.gust.seed;

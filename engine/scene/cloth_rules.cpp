@@ -373,6 +373,7 @@ bool check_cloth(const Members& members, Cloth& cloth) {
     if (fits && members.fit({"grid", "size", "holes", "maps", "loads"}))
         fits = take_loads(members["loads"], low, cloth);
     if (members.fit({"grid", "size", "holes", "maps", "start"})) fits = take_start(members, cloth) && fits;
+    if (members.fit({"grid", "size", "appearance"})) fits = check_hem(members, cloth) && fits;
     if (members.fit({"grid", "velocity", "velocities"})) fits = take_velocities(members, cloth) && fits;
     if (members.fit({"grid", "size", "placement"})) {
         fits = check_resolution(members.object(), cloth) && fits;

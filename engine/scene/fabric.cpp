@@ -31,13 +31,14 @@ ValueText fabric_text() {
 std::string_view fabric_help() {
     static const std::string help = [] {
         std::string text =
-            "Sets areal_density, stiffness and friction, each of which may still be given to override it. Absent: "
-            "their "
-            "own defaults.";
+            "Sets areal_density, stiffness, friction, and the appearance's roughness and sheen (estimated), each of "
+            "which may still be given to override it. Absent: their own defaults.";
         for (const Fabric& fabric : fabrics)
-            text += fmt::format(" {}: {} kg/m^2, stretch {}, shear {} N/m, bend {} N m, friction {}. {}", fabric.name,
-                                fabric.areal_density, directions_text(fabric.stiffness.stretch), fabric.stiffness.shear,
-                                directions_text(fabric.stiffness.bend), fabric.friction, fabric.source);
+            text += fmt::format(
+                " {}: {} kg/m^2, stretch {}, shear {} N/m, bend {} N m, friction {}, roughness {}, sheen {}. "
+                "{}",
+                fabric.name, fabric.areal_density, directions_text(fabric.stiffness.stretch), fabric.stiffness.shear,
+                directions_text(fabric.stiffness.bend), fabric.friction, fabric.roughness, fabric.sheen, fabric.source);
         return text;
     }();
     return help;
@@ -61,13 +62,20 @@ bool read_fabric(const SceneNode& node, Cloth& cloth) {
 }
 
 void note_fabric(const SceneNode& cloth) {
-    const SceneNode name = cloth.member("fabric"), stiffness = cloth.member("stiffness");
+    const SceneNode name = cloth.member("fabric"), stiffness = cloth.member("stiffness"),
+                    look = cloth.member("appearance");
     const Fabric* fabric = name && name.value()->isString() ? find_fabric(name.value()->asString()) : nullptr;
     if (!fabric) return;
     const Stiffness& springs = fabric->stiffness;
     const auto number = [](double value) { return fmt::format("{}", value); };
     cloth.note_default("areal_density", number(fabric->areal_density));
     cloth.note_default("friction", number(fabric->friction));
+    cloth.note_default("appearance",
+                       fmt::format(R"({{"roughness": {}, "sheen": {}}})", fabric->roughness, fabric->sheen));
+    if (look && look.value()->isObject()) {
+        look.note_default("roughness", number(fabric->roughness));
+        look.note_default("sheen", number(fabric->sheen));
+    }
     const std::string stretch = directions_text(springs.stretch), bend = directions_text(springs.bend);
     cloth.note_default("stiffness",
                        fmt::format(R"({{"stretch": {}, "shear": {}, "bend": {}}})", stretch, springs.shear, bend));

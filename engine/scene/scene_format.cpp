@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/collider_rows.h"
+#include "scene/look_rows.h"
 #include "scene/outline_rows.h"
 #include "scene/particle_rows.h"
 #include "scene/scene_rules.h"
@@ -142,19 +143,6 @@ const Object<Stiffness> stiffness{
          "2002); 0.02 to 0.2 lets a coarse grid collapse. Sheared cloth, whose diagonals one way are pushed together, "
          "keeps (1 + compression)/2 of its shear stiffness."},
     }};
-
-const Object<Appearance> appearance{"appearance",
-                                    "For pictures only.",
-                                    {
-                                        {"front", &Appearance::front, color, "sRGB of the side of u x v."},
-                                        {"back", &Appearance::back, color, "sRGB of the other side."},
-                                        {"pattern", &Appearance::pattern, choice<Pattern>(pattern_spellings),
-                                         "Plain colour, or squares or stripes (along columns) of it and of `second`, "
-                                         "each an eighth of the cloth's shorter side wide."},
-                                        {"second", &Appearance::second, color,
-                                         "sRGB of the pattern's other squares or "
-                                         "stripes, on both sides."},
-                                    }};
 
 const Object<SelfCollision> self_collision{
     "self_collision",
@@ -356,36 +344,6 @@ const Object<SolverSettings> solver{
          "methods."},
     },
     check_solver};
-
-const Object<Camera> camera{
-    "camera",
-    "A pinhole camera, upright. Where z is up, the default position is [0, -3, 1.5] and the target [0, 0, 1].",
-    {
-        {"position", &Camera::position, turned(vec3), "Metres."},
-        {"target", &Camera::target, turned(vec3), "Metres: the point in the middle of the picture; not the position."},
-        {"fov", &Camera::fov, number({0.0, 170.0, true}), "Degrees, vertical field of view."},
-    },
-    check_camera};
-
-const Object<DirectionalLight> light{
-    "light",
-    "A directional light.",
-    {
-        {"direction", &DirectionalLight::direction, turned(direction),
-         "The way the light travels. Where z is up, the default is turned with the world."},
-        {"color", &DirectionalLight::color, color, "sRGB."},
-        {"intensity", &DirectionalLight::intensity, number(not_negative), "Factor on the colour."},
-    }};
-
-const Object<ImageSettings> image{"image",
-                                  "The pictures.",
-                                  {
-                                      {"size", &ImageSettings::size, two_integers(1, 16384), "Pixels: width, height."},
-                                      {"samples", &ImageSettings::samples, one_of({1, 4}), "Samples per pixel."},
-                                      {"background", &ImageSettings::background, color, "sRGB."},
-                                      {"fixtures", &ImageSettings::fixtures, boolean(),
-                                       "Whether poles, rails and knobs are drawn that pinned cloth hangs on."},
-                                  }};
 
 const Object<Oracle> oracle{
     "oracle",

@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/output_error.h"
 #include "base/printable_text.h"
+#include "input/png_picture.h"
 #include "mesh/mesh_file.h"
 #include "mesh/sequence_file.h"
 #include "scene/scene_node.h"
@@ -112,6 +114,20 @@ void read_file(Mesh& mesh) {
         mesh.frames.empty() ? nullptr : read_sequence(mesh.file, mesh.frames, mesh.scale, mesh.shell, mesh.solid);
     mesh.shape = mesh.sequence ? mesh.sequence->form() : read_mesh(mesh.file, mesh.scale, mesh.shell, mesh.solid);
 }
+void read_file(Appearance& appearance) {
+    try {
+        constexpr std::uint32_t most_side = 4096;
+        Picture picture = read_png(appearance.texture);
+        if (std::max(picture.width, picture.height) > most_side)
+            throw OutputError(fmt::format("expected a picture of at most {} pixels a side, got {}x{}", most_side,
+                                          picture.width, picture.height));
+        appearance.image =
+            std::make_shared<const TextureImage>(TextureImage{picture.width, picture.height, std::move(picture.rgb)});
+    } catch (const OutputError& error) {
+        throw Error(error.what());
+    }
+}
+
 std::string scene_folder(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) ? std::filesystem::path(path).parent_path().string() : "";

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drape/error.h"
+#include "drape/scene_reader.h"
 #include "scene/oracle_kinds.h"
 
 namespace drape {
@@ -53,6 +55,7 @@ Value<std::vector<Key>> keys_in_time(const Value<Key>& key) {
 template Value<std::vector<VectorKey>> keys_in_time(const Value<VectorKey>&);
 template Value<std::vector<NumberKey>> keys_in_time(const Value<NumberKey>&);
 template Value<std::vector<FactorKey>> keys_in_time(const Value<FactorKey>&);
+template Value<std::vector<CameraKey>> keys_in_time(const Value<CameraKey>&);
 
 Value<MotionPath> motion_path(const Value<MotionKey>& key) {
     const Value<std::vector<MotionKey>> keys = list(key, one_key, 1, most_keys);
@@ -158,8 +161,39 @@ bool check_solver(const Members& members, SolverSettings& solver) {
 }
 
 bool check_camera(const Members& members, Camera& camera) {
+    for (const std::string_view key : {"position", "target"})
+        if (members["keys"] && members[key])
+            members[key].warn(fmt::format("{} is ignored beside keys, which have the camera's", key));
     if (!members.fit({"position", "target"}) || camera.position != camera.target) return true;
     return members.object().fail("expected a target away from the camera's position, got the same point");
+}
+
+bool check_camera_key(const Members& members, CameraKey& key) {
+    if (!members.all_fit() || key.position != key.target) return true;
+    return members.object().fail("expected a target away from the camera's position, got the same point");
+}
+
+bool check_appearance(const Members& members, Appearance& appearance) {
+    const SceneNode texture = members["texture"];
+    if (!texture || !members.fit({"texture"})) return true;
+    appearance.texture = texture.file(appearance.texture).string();
+    try {
+        read_file(appearance);
+    } catch (const Error& error) {
+        return texture.fail(error.what());
+    }
+    return true;
+}
+
+bool check_hem(const Members& members, const Cloth& cloth) {
+    const double hem = cloth.appearance.hem;
+    const SceneNode node = members["appearance"].member("hem");
+    if (hem == 0 || !node) return true;
+    if (!cloth.panel.empty()) return node.fail("expected no hem of a cloth with an outline, got one");
+    const double most = 0.25 * std::min(cloth.size[0], cloth.size[1]);
+    if (hem <= most) return true;
+    return node.fail(
+        fmt::format("expected at most a quarter of the cloth's shorter side, {:.6g} m, got {:.6g}", most, hem));
 }
 
 Value<std::string> check_name() {

@@ -12,7 +12,7 @@ Value<std::string> file_name();
 /// [column, row] within the largest grid; `check_cloth` holds it against the cloth's own.
 Value<IndexBox> particle();
 Value<IndexBox> particle_box(const Value<IndexBox>& particle);
-/// The keys of what changes, a VectorKey's, a NumberKey's or a FactorKey's, in the order of their times.
+/// The keys of what changes, of any kind with a time, in the order of their times.
 template <class Key>
 Value<std::vector<Key>> keys_in_time(const Value<Key>& key);
 Value<MotionPath> motion_path(const Value<MotionKey>& key);
@@ -104,6 +104,11 @@ void warn_of_doubts(const Members& members, const SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);
 bool check_camera(const Members& members, Camera& camera);
+bool check_camera_key(const Members& members, CameraKey& key);
+/// Reads the texture.
+bool check_appearance(const Members& members, Appearance& appearance);
+/// Checks that a hem fits the cloth.
+bool check_hem(const Members& members, const Cloth& cloth);
 /// Reads the limits of an oracle's check: all of them, and no others.
 bool read_oracle_limits(const Members& members, Oracle& oracle);
 /// Checks oracles against the whole scene: naming a missing cloth is an error, what makes a check empty a warning.

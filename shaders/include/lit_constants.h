@@ -6,7 +6,7 @@
 
 #include "shared/raster_types.h"
 
-/// The members are those of FrameConstants. Together with the surfaces' own inputs and ClothLook they take 21
+/// The members are those of FrameConstants. Together with the surfaces' own inputs and ClothLook they take 22
 /// locations; Vulkan guarantees 16.
 struct LitConstants {
     vec4 eye;
@@ -18,13 +18,14 @@ struct LitConstants {
 };
 
 /// Colours of a cloth's two sides, and of the pattern on both. front.w: side of the pattern's squares, m; back.w: the
-/// number of the pattern.
+/// number of the pattern; second.w: sheen; fabric: ClothPush::fabric.
 struct ClothLook {
-    vec4 front, back, second;
+    vec4 front, back, second, fabric;
 };
 
 ClothLook cloth_look(ClothPush push) {
-    return ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second);
+    return ClothLook(vec4(push.front.xyz, push.size.z), vec4(push.back.xyz, float(push.grid.z)), push.second,
+                     push.fabric);
 }
 
 const int lit_location = 4;                                    // the first after the surfaces' own

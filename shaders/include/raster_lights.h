@@ -36,7 +36,7 @@ vec3 shaded(Surface surface, vec3 world) {
     if (light_count > 0) {
         vec3 arriving = constants.light_radiance[0].xyz * visibility(world, surface.normal);
         radiance += light_radiance(surface, constants.to_light[0].xyz, arriving);
-        if (surface.gloss > 0.0) radiance += highlight_radiance(surface, constants.to_light[0].xyz, arriving);
+        if (surface.spread < 1.0) radiance += highlight_radiance(surface, constants.to_light[0].xyz, arriving);
     }
     if (light_count > 1) radiance += lit_by(1, surface);
     if (light_count > 2) radiance += lit_by(2, surface);

@@ -4,13 +4,14 @@
 //            + sum over lights, V = share of the first light that arrives (shadow map), c = n.l:
 //                L V albedo * c                      c > 0         Lambert
 //                L V albedo * transmission * -c      c < 0         light through thin cloth
-//            + L V gloss * (n.h)^32                  c > 0         Blinn-Phong highlight of the first light,
-//                                                                  h = unit(l + v)
+//            + L V c F D / (4 (l.h)^2)               c > 0, a < 1  highlight of the first light, h = unit(l + v):
+//              D = a^2 / ((n.h)^2 (a^2 - 1) + 1)^2, F = 0.04       GGX's distribution of facets (Walter et al. 2007),
+//                                                                  visible as of Kelemen and Szirmay-Kalos 2001
 //            + albedo * S * sheen * (1 - n.v)^4                    fibres at grazing angles
 //
 // n: unit normal of the side that faces the eye, u: up in the world, l: unit vector to the light, v: unit vector to the
 // eye, S, G: ambient of sky and ground, O: openness, the share of the surroundings that folds leave free, L: light
-// colour times intensity; all colours linear. tone.h makes the picture's colours of it.
+// colour times intensity, a: square of the roughness; all colours linear. tone.h makes the picture's colours of it.
 #ifndef DRAPE_SHADING_H
 #define DRAPE_SHADING_H
 
@@ -19,7 +20,7 @@ struct Surface {
     vec3 normal;
     vec3 to_eye;
     float transmission;
-    float gloss;
+    float spread;  // a^2; 1: there is no highlight
     float sheen;
     float openness;
 };
@@ -42,19 +43,13 @@ vec3 light_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     return surface.albedo * arriving * (facing > 0.0f ? facing : surface.transmission * -facing);
 }
 
+/// The halfway vector has no unit length here, by which only one division is left.
 vec3 highlight_radiance(Surface surface, vec3 to_light, vec3 arriving) {
     vec3 halfway = to_light + surface.to_eye;
-    float squared = cosine(halfway, halfway);
-    float power = squared > 0.0f && cosine(surface.normal, to_light) > 0.0f
-                      ? clamped(cosine(surface.normal, halfway)) / sqrt(squared)
-                      : 0.0f;
-    // The loop of squarings that gives the 32nd power is written out: the default device's compiler unrolls none.
-    power = power * power;
-    power = power * power;
-    power = power * power;
-    power = power * power;
-    power = power * power;
-    return arriving * (surface.gloss * power);
+    float squared = cosine(halfway, halfway), along = clamped(cosine(surface.normal, halfway));
+    float facing = clamped(cosine(surface.normal, to_light));
+    float facets = max(squared + along * along * (surface.spread - 1.0f), 1e-6f);
+    return arriving * (facing * 0.04f * surface.spread * squared / (facets * facets));
 }
 
 #endif

@@ -47,12 +47,17 @@ const int pattern_plain = 0;
 const int pattern_checker = 1;
 const int pattern_stripes = 2;
 
+/// Share of a texture's light that the back of a cloth shows, about that of the back's colour where nothing says it.
+const float texture_back = 0.7f;
+
 struct ClothPush {
     uvec4 grid;  // columns, rows, pattern, particles from one to those that a fold may lift above it
     vec4 size;   // x, y: metres along columns, rows; z: side of a pattern's square, m; w: thickness, m
     vec4 front;  // colour of the side the normals point to
     vec4 back;
-    vec4 second;  // the pattern's other colour, on both sides
+    vec4 second;    // the pattern's other colour, on both sides; w: sheen
+    vec4 fabric;    // x: spread (include/shading.h); y: metres from thread to thread, 0: none; z: width of the hem, m
+    uvec4 texture;  // x: its first texel; y, z: width and height, powers of two, 0: none; w: 1 where the back shows it
 };
 
 struct ClothTilesPush {
@@ -70,7 +75,7 @@ const int strain_of_weft = 2;  // along rows
 struct StrainPush {
     uvec4 grid;    // columns, rows; z, w unused
     vec4 springs;  // x, y: rest lengths along columns, rows, m, 0: no such springs; z unused; w: thickness, m
-    vec4 place;    // x strain + y: place on the heat map; z, w unused
+    vec4 place;    // x s + y: place on the heat map; s: strain, or where z > 0 w log(1 + z strain), of the strain's sign
 };
 
 #ifdef __cplusplus

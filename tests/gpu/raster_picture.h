@@ -94,8 +94,47 @@ struct Picture {
             4 * (static_cast<std::size_t>(std::floor(y)) * columns + static_cast<std::size_t>(std::floor(x)));
         return {bytes.at(first), bytes.at(first + 1), bytes.at(first + 2)};
     }
+    int alpha(const PixelPosition& at) const {
+        return bytes.at(4 * (static_cast<std::size_t>(at.y) * columns + static_cast<std::size_t>(at.x)) + 3);
+    }
     std::array<int, 3> at(const PixelPosition& position) const { return at(position.x, position.y); }
 };
+
+/// The formula of shaders/include/shading.h, written a second time in double precision.
+struct Shading {
+    Vec3 albedo, normal, to_eye, sky, ground;
+    double transmission = 0.2, roughness = 1, sheen = 0.3;
+    Vec3 pixel_color(const std::vector<DirectionalLight>& lights) const {
+        const double grazing = 1 - std::max(0.0, dot(normal, to_eye));
+        Vec3 result;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double around = sky[k] * (1 + normal[1]) / 2 + ground[k] * (1 - normal[1]) / 2;
+            double radiance = albedo[k] * (around + sky[k] * sheen * std::pow(grazing, 4));
+            for (const DirectionalLight& light : lights) {
+                const Vec3 to_light = unit(-1.0 * light.direction);
+                const double arriving = linear(light.color[k]) * light.intensity;
+                const double facing = dot(normal, to_light);
+                const Vec3 halfway = unit(to_light + to_eye);
+                const double spread = std::pow(roughness, 4), facets = std::pow(std::max(0.0, dot(normal, halfway)), 2);
+                const double shine = facing * 0.04 * spread / std::pow(facets * (spread - 1) + 1, 2) /
+                                     (4 * std::pow(dot(to_light, halfway), 2));
+                radiance += arriving * albedo[k] * (facing > 0 ? facing : transmission * -facing);
+                if (&light == lights.data() && facing > 0 && roughness < 1) radiance += arriving * shine;
+            }
+            result[k] = srgb_byte(radiance);
+        }
+        return result;
+    }
+};
+
+inline void expect_color(const std::array<int, 3>& seen, const Vec3& expected, const std::string& what) {
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], expected[k], 2) << what << ", channel " << k;
+}
+
+/// Returns where a point of the world lands in the picture.
+inline PixelPosition pixel(const SceneDescription& scene, const Vec3& point) {
+    return project(*scene.camera, width, height, point);
+}
 
 struct Shot {
     std::uint32_t samples = 1;
@@ -175,6 +214,7 @@ class Raster : public testing::Test {
             return Vec3{drawn.positions[i].x, drawn.positions[i].y, drawn.positions[i].z};
         };
         cloth.size = {drawn.size_u, drawn.size_v};
+        cloth.appearance = drawn.appearance;
         cloth.placement = {at(0), unit(at(drawn.columns - 1) + -1.0 * at(0)),
                            unit(at(drawn.positions.size() - drawn.columns) + -1.0 * at(0))};
     }

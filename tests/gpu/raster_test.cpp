@@ -15,10 +15,6 @@
 namespace drape {
 namespace {
 
-PixelPosition pixel(const SceneDescription& scene, const Vec3& point) {
-    return project(*scene.camera, width, height, point);
-}
-
 /// Returns which of red, green and blue a pixel has at all.
 std::array<bool, 3> channels(const std::array<int, 3>& pixel_color) {
     return {pixel_color[0] > 0, pixel_color[1] > 0, pixel_color[2] > 0};
@@ -173,34 +169,6 @@ TEST_F(Raster, MeshesAreDrawnInTheirForm) {
     }
 }
 
-/// The formula of shaders/include/shading.h, written a second time in double precision.
-struct Shading {
-    Vec3 albedo, normal, to_eye, sky, ground;
-    double transmission = 0.2, gloss = 0, sheen = 0.3;
-    Vec3 pixel_color(const std::vector<DirectionalLight>& lights) const {
-        const double grazing = 1 - std::max(0.0, dot(normal, to_eye));
-        Vec3 result;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double around = sky[k] * (1 + normal[1]) / 2 + ground[k] * (1 - normal[1]) / 2;
-            double radiance = albedo[k] * (around + sky[k] * sheen * std::pow(grazing, 4));
-            for (const DirectionalLight& light : lights) {
-                const Vec3 to_light = unit(-1.0 * light.direction);
-                const double arriving = linear(light.color[k]) * light.intensity;
-                const double facing = dot(normal, to_light);
-                const double shine = std::pow(std::max(0.0, dot(normal, unit(to_light + to_eye))), 32);
-                radiance += arriving * albedo[k] * (facing > 0 ? facing : transmission * -facing);
-                if (&light == lights.data() && facing > 0) radiance += arriving * gloss * shine;
-            }
-            result[k] = srgb_byte(radiance);
-        }
-        return result;
-    }
-};
-
-void expect_color(const std::array<int, 3>& seen, const Vec3& expected, const std::string& what) {
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], expected[k], 2) << what << ", channel " << k;
-}
-
 TEST_F(Raster, ClothIsShadedByTheFormula) {
     SceneDescription scene = dark_room();
     scene.ambient = {0.2, 0.25, 0.3};
@@ -235,10 +203,14 @@ TEST_F(Raster, CollidersAreShadedByTheFormula) {
     scene.lights = {{{-0.1, -0.2, -1}, {1, 0.9, 0.8}, 0.6}};
     const Vec3 color{0.6, 0.5, 0.3};
     scene.colliders.push_back(painted(Box{{0, 0, -0.5}, {0.5, 0.5, 0.5}}, color));
-    Shading shading{linear(color), {0, 0, 1}, {0, 0, 1}, scene.ambient, scene.ambient_ground, 0, 0.12, 0};
+    Shading shading{linear(color), {0, 0, 1}, {0, 0, 1}, scene.ambient, scene.ambient_ground, 0, 0.5, 0};
     expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "face of a box");
     scene.colliders = {};
     scene.colliders.push_back(painted(Sphere{{0, 0, -0.5}, 0.5}, color));
+    // The middle of the picture is a corner of four pixels; this one shows what is half a pixel to the right and above.
+    const double half_pixel = 3 * std::tan(20 * std::numbers::pi / 180) / height;
+    shading.normal = unit({half_pixel, half_pixel, 0.5});
+    shading.to_eye = unit({-half_pixel, -half_pixel, 3});
     expect_color(draw(scene, {}).at(160, 119), shading.pixel_color(scene.lights), "middle of a sphere");
 }
 
@@ -346,7 +318,7 @@ TEST_F(Raster, FirstLightCastsShadows) {
     SceneDescription scene = floor_scene();
     const DrawnCloth cloth = flat_cloth({0, 1, 0}, {0.6, 0, 0}, {0, 0, -0.6}, {0, 1, 0}, red, blue);
     const Vec3 floor_color = linear(Vec3{0.6, 0.6, 0.6});
-    const Shading shading{floor_color, {0, 1, 0}, {0, 1, 0}, scene.ambient, scene.ambient_ground, 0, 0, 0};
+    const Shading shading{floor_color, {0, 1, 0}, {0, 1, 0}, scene.ambient, scene.ambient_ground, 0, 1, 0};
     const Vec3 lit = shading.pixel_color(scene.lights), dark = shading.pixel_color({});
     for (const std::uint32_t samples : {1u, 4u}) {
         const Picture picture = draw(scene, {cloth}, {.samples = samples, .options = {.shadow = true}});

@@ -76,7 +76,7 @@ void expect_every_cloth_drawn(const SceneDescription& scene, const Frames& frame
         ASSERT_EQ(frames.pictures[i].size(), std::size_t{width} * height * 4);
         for (const Cloth& cloth : scene.cloths) {
             const double share = share_of_hue(frames.pictures[i], cloth.appearance.front) +
-                                 share_of_hue(frames.pictures[i], cloth.appearance.back);
+                                 share_of_hue(frames.pictures[i], back_of(cloth.appearance));
             EXPECT_GT(share, 0.01) << cloth.name << " in frame " << frames.numbers[i];
         }
     }
@@ -118,8 +118,8 @@ TEST_P(SceneRenderTest, ColoursAreTheCloths) {
     std::vector<Vec3> colors;
     for (Cloth& cloth : scene.cloths) {
         colors.push_back(cloth.appearance.front);
-        colors.push_back(cloth.appearance.back);
-        cloth.appearance = {{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, Pattern::plain};
+        colors.push_back(back_of(cloth.appearance));
+        cloth.appearance = {{0.5, 0.5, 0.5}, Vec3{0.5, 0.5, 0.5}, Pattern::plain};
     }
     const Frames frames = run(scene, 0, 1, 1);
     for (const Vec3& color : colors) EXPECT_LT(share_of_hue(frames.pictures.at(0), color), 0.005);

@@ -242,13 +242,29 @@ TEST(StrainRange, FollowsFromWeightWindAndStiffness) {
     SceneDescription scene = sheet({1, 1});
     scene.gravity = {0, -10, 0};
     scene.cloths[0].areal_density = 0.2;
-    scene.cloths[0].stiffness.stretch = 1000;  // 2 N/m on the edge: 0.2 %, 20 times of it 4 %
-    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.05);
-    scene.wind.velocity = {10, 0, 0};  // 60 Pa: 6 %
-    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.1);
+    scene.cloths[0].stiffness.stretch = 1000;  // 2 N/m on the edge: 0.2 %, 100 times of it 20 %
+    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.2);
+    scene.wind.velocity = {10, 0, 0};  // 60 Pa: 6 %, five times of it 30 %
+    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.5);
     scene.wind.velocity = {0, 0, 0};
     scene.cloths[0].stiffness.rigid = true;
-    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.001);
+    EXPECT_DOUBLE_EQ(default_strain_range(scene), 0.005);
+}
+
+TEST_F(ViewTest, TheDefaultScaleIsLogarithmic) {
+    for (const View kind : {View::stretch, View::warp}) {
+        const SceneDescription scene = sheet({1.004, 0.99});
+        const StrainScale scale = strain_scale({kind, 0}, scene).value();
+        const double low = kind == View::stretch ? 0 : 0.5;
+        EXPECT_DOUBLE_EQ(scale.place_of(0), low);
+        EXPECT_DOUBLE_EQ(scale.place_of(scale.high), 1);
+        // ln(1 + 1000 s / r) / ln 1001
+        const double share = std::log(1 + 1000 * 0.004 / scale.high) / std::log(1001);
+        EXPECT_DOUBLE_EQ(scale.place_of(0.004), low + (1 - low) * share);
+        const auto [place, away] = place_of(*scale.map, shown(scene, {kind, 0}).picture.at(160, 120));
+        EXPECT_LT(away, 3);
+        EXPECT_NEAR(place, scale.place_of(0.004), 0.01);
+    }
 }
 
 }  // namespace

@@ -29,7 +29,9 @@ inline constexpr const char* full_scene =
                {"force_keys": [{"t": 0, "force": [0, 0, 0]}, {"t": 0.5, "force": [0, 0, 4]}]},
                {"at": [5, 6], "pressure": -2.5},
                {"box": [[1, 2], [3, 4]], "pressure_keys": [{"t": 0, "pressure": 0}, {"t": 1, "pressure": 7}]}],
-     "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9]}},
+     "appearance": {"front": [0.1, 0.2, 0.3], "back": [0.4, 0.5, 0.6], "pattern": "stripes", "second": [0.7, 0.8, 0.9],
+                    "roughness": 0.5, "sheen": 0.4, "weave": 0.002, "hem": 0.03, "texture": ")json" DRAPE_SOURCE_DIR
+    R"json(/tests/scene/given/cells.png"}},
     {"name": "rigid-one", "grid": [3, 5], "placement": {"origin": [9, 9, 9]}, "stiffness": "rigid"},
     {"name": "given", "grid": [3, 5], "tear": {"tension": 300}, "rest": "start", "start": ")json" DRAPE_SOURCE_DIR
     R"json(/tests/scene/given/shape.obj",
@@ -66,11 +68,12 @@ inline constexpr const char* full_scene =
   "forces": true,
   "cutters": [{"triangle": [[0, 1, 0], [1, 1, 0], [0, 2, 0.5]], "active": [0.25, 0.5], "path": [{"t": 0.25, "translate": [0, 0, 1]}]}],
   "solver": {"method": "relax", "substeps": 11, "iterations": 3, "collide": "substep", "tolerance": 0.01, "tolerance_worst": 0.2, "tolerance_motion": 0.03, "estimate_error": true, "strain_damping": 0.05, "tethers": true},
-  "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55},
+  "camera": {"position": [1, 1.5, 2], "target": [0.5, 1, 0], "fov": 55,
+             "keys": [{"t": 0, "position": [1, 2, 3], "target": [0, 1, 0]}, {"t": 2, "position": [3, 2, 1], "target": [0, 0, 1]}]},
   "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
   "ambient": [0.1, 0.2, 0.3],
   "ambient_ground": [0.3, 0.2, 0.1],
-  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1], "fixtures": false},
+  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1], "fixtures": false, "blades": false, "alpha": true},
   "oracles": [{"check": "falls", "cloth": 0, "from_row": 1, "until_frame": 10, "error": 1.05}]
 }
 )json";

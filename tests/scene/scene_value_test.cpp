@@ -39,12 +39,14 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_TRUE(scene.forces);
     EXPECT_EQ(scene.solver,
               (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, true, CollideWhen::substep, true, 0.05}));
-    EXPECT_EQ(scene.camera, (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55}));
+    EXPECT_EQ(
+        scene.camera,
+        (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55, {0, 1, 0}, {{0, {1, 2, 3}, {0, 1, 0}}, {2, {3, 2, 1}, {0, 0, 1}}}}));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
     EXPECT_EQ(scene.ambient, (Vec3{0.1, 0.2, 0.3}));
     EXPECT_EQ(scene.ambient_ground, (Vec3{0.3, 0.2, 0.1}));
-    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}, false}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}, false, false, true}));
     ASSERT_EQ(scene.oracles.size(), 1u);
     EXPECT_EQ(scene.oracles[0],
               (Oracle{"falls", {{"cloth", 0}, {"from_row", 1}, {"until_frame", 10}, {"error", 1.05}}}));
@@ -68,7 +70,14 @@ TEST(SceneValues, ClothOfTheFullScene) {
     EXPECT_EQ(cloth.velocity, (Vec3{1, 2, 3}));
     ASSERT_EQ(cloth.holes.size(), 1u);
     EXPECT_EQ(cloth.holes[0], (IndexBox{{40, 20}, {50, 30}}));
-    EXPECT_EQ(cloth.appearance, (Appearance{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}}));
+    Appearance look = cloth.appearance;
+    ASSERT_TRUE(look.image);
+    EXPECT_EQ(look.image->rgb.size(), std::size_t{3} * look.image->width * look.image->height);
+    EXPECT_TRUE(look.texture.ends_with("cells.png"));
+    look.image = nullptr, look.texture.clear();
+    EXPECT_EQ(
+        look,
+        (Appearance{{0.1, 0.2, 0.3}, Vec3{0.4, 0.5, 0.6}, Pattern::stripes, {0.7, 0.8, 0.9}, 0.5, 0.4, 0.002, 0.03}));
     EXPECT_EQ(scene.cloths[2].tear, (Tear{{}, 300.0}));
     EXPECT_EQ(scene.cloths[3].tear, (Tear{0.4, {}}));
     EXPECT_TRUE(scene.cloths[1].stiffness.rigid);
@@ -138,6 +147,8 @@ TEST(SceneValues, AFabricSetsWhatItsClothDoesNotSay) {
         EXPECT_EQ(cloth.areal_density, fabric.areal_density);
         EXPECT_EQ(cloth.stiffness, fabric.stiffness);
         EXPECT_EQ(cloth.friction, fabric.friction);
+        EXPECT_EQ(cloth.appearance.roughness, fabric.roughness);
+        EXPECT_EQ(cloth.appearance.sheen, fabric.sheen);
         EXPECT_FALSE(fabric.source.empty());
     }
     const Cloth heavy =

@@ -338,7 +338,7 @@ Json::Value cloth_json(const ClothArrays& arrays, const Cloth& cloth, const Kept
                                     {"triangles", triangles.indices()},
                                     {"changes", triangles.changes()},
                                     {"front", json_of(cloth.appearance.front)},
-                                    {"back", json_of(cloth.appearance.back)}});
+                                    {"back", json_of(back_of(cloth.appearance))}});
     put_positions(json, xyz);
     put_strains(json, strains);
     return json;

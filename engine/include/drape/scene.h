@@ -15,28 +15,16 @@
 #include <variant>
 #include <vector>
 
+#include "drape/look.h"
 #include "drape/solid.h"
 #include "drape/solver_method.h"
+#include "drape/spelling.h"
 #include "drape/vec3.h"
 
 namespace drape {
 
 class MeshSequence;
 class MeshShape;
-
-/// A value of an enumeration and its word in the scene file.
-template <class T>
-struct Spelling {
-    std::string_view name;
-    T value;
-};
-
-template <class T, std::size_t count>
-constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T value) {
-    for (const Spelling<T>& candidate : spellings)
-        if (candidate.value == value) return candidate.name;
-    return {};
-}
 
 /// The axis that points up in a scene's world. Coordinates are the scene's own everywhere (world/up.h). The reader
 /// turns defaults that have a direction with it; these structures have those of a world with y up.
@@ -192,18 +180,6 @@ struct Load {
     std::vector<float> factors;
     bool presses() const { return pressure || !pressure_keys.empty(); }
     bool operator==(const Load&) const = default;
-};
-
-enum class Pattern { plain, checker, stripes };
-inline constexpr Spelling<Pattern> pattern_spellings[] = {
-    {"plain", Pattern::plain}, {"checker", Pattern::checker}, {"stripes", Pattern::stripes}};
-
-struct Appearance {
-    Vec3 front{0.80, 0.10, 0.10};  ///< sRGB 0..1
-    Vec3 back{0.60, 0.10, 0.10};
-    Pattern pattern = Pattern::checker;
-    Vec3 second{0.93, 0.89, 0.80};  ///< colour of the pattern's other squares or stripes, on both sides
-    bool operator==(const Appearance&) const = default;
 };
 
 /// Contact of a cloth with itself keeps a thickness of at least and at most these shares of the grid's smaller spacing.
@@ -422,34 +398,6 @@ struct SolverSettings {
     /// a twentieth of that of others.
     double strain_damping = 0.2;
     bool operator==(const SolverSettings&) const = default;
-};
-
-struct Camera {
-    Vec3 position{0, 1.5, 3};
-    Vec3 target{0, 1, 0};
-    double fov = 40.0;  ///< vertical, degrees
-    Vec3 up{0, 1, 0};   ///< what points up in the picture; picture/framing.h sets it to the scene's
-    bool operator==(const Camera&) const = default;
-};
-
-struct DirectionalLight {
-    Vec3 direction{0.75, -0.9, -0.5};  ///< direction in which the light travels; unit length after reading
-    Vec3 color{1, 0.97, 0.91};         ///< sRGB 0..1
-    double intensity = 1.2;
-    bool operator==(const DirectionalLight&) const = default;
-};
-
-/// Returns a warm key light from the left, high and a little in front, and a cool fill light from the right.
-inline std::vector<DirectionalLight> default_lights() {
-    return {DirectionalLight{}, {{-0.8, -0.35, -0.5}, {0.72, 0.84, 1}, 0.22}};
-}
-
-struct ImageSettings {
-    std::array<std::uint32_t, 2> size{1280, 720};
-    std::uint32_t samples = 4;          ///< 1 or 4
-    Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
-    bool fixtures = true;  ///< draws poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
-    bool operator==(const ImageSettings&) const = default;
 };
 
 /// A check that the scene promises to meet. `drape verify` judges it, the simulation ignores it.

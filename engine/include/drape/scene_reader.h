@@ -66,6 +66,8 @@ std::string scene_folder(const std::string& path);
 
 /// Reads a mesh's files. Throws an Error without a place.
 void read_file(Mesh& mesh);
+/// Reads an appearance's texture. Throws an Error without a place.
+void read_file(Appearance& appearance);
 
 /// Return what `read_scene` or `read_scene_text` reads, or throw SceneFailure.
 SceneDescription load_scene(const std::string& path, std::span<const std::string> overrides = {});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drape/scene.h"
+#include "drape/spelling.h"
 
 namespace drape {
 
