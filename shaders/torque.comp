@@ -48,11 +48,8 @@ void main() {
     int group = int(gl_WorkGroupID.x), count = push.grid.x * push.grid.y;
     int place = group * torque_particles + int(gl_LocalInvocationIndex);
     int end = min((group + 1) * torque_particles, count);
-    if (place < end)
-        do {  // loops have their tests at the bottom (include/every.h)
-            sum = with_particle(sum, texel_of(place, push.grid.x));
-            place += workgroup_width;
-        } while (place < end);
+    // With its test at the bottom, SwiftShader loses what lanes have summed that leave this loop before others.
+    for (; place < end; place += workgroup_width) sum = with_particle(sum, texel_of(place, push.grid.x));
     sum = joined_over_workgroup(sum);
     if (gl_LocalInvocationIndex != 0u) return;
     store_sum(group, sum);
