@@ -116,7 +116,30 @@ std::optional<MassProperties> properties(const Mesh& mesh) {
     return result;
 }
 
+double area(const Plane&) { return 0; }
+double area(const Sphere& sphere) { return 4 * std::numbers::pi * sphere.radius * sphere.radius; }
+double area(const Box& box) {
+    const Vec3& half = box.half_extents;
+    return 8 * (half[0] * half[1] + half[1] * half[2] + half[2] * half[0]);
+}
+double area(const Ellipsoid& ball) {
+    // Within 1.1 % (Thomsen 2004).
+    constexpr double power = 1.6075;
+    const auto product = [&](std::size_t a, std::size_t b) { return std::pow(ball.radii[a] * ball.radii[b], power); };
+    return 4 * std::numbers::pi * std::pow((product(0, 1) + product(1, 2) + product(2, 0)) / 3, 1 / power);
+}
+double area(const Capsule& capsule) {
+    const auto [half, lower, upper] = shape_geometry(capsule).size;
+    const double most = std::max(lower, upper);
+    return 4 * std::numbers::pi * most * (most + half);
+}
+double area(const Mesh&) { return 0; }
+
 }  // namespace
+
+double surface_area(const ColliderShape& shape) {
+    return std::visit([](const auto& each) { return area(each); }, shape);
+}
 
 std::optional<MassProperties> mass_properties(const ColliderShape& shape) {
     return std::visit([](const auto& each) { return properties(each); }, shape);

@@ -18,4 +18,11 @@ struct MassProperties {
 /// Returns the properties of a shape; nothing for a plane, which has no end, and a shell, which is not solid.
 std::optional<MassProperties> mass_properties(const ColliderShape& shape);
 
+/// Returns the area of a shape's surface, m^2: of a capsule, one with the larger radius; 0 of a plane and of a mesh,
+/// which are no bodies.
+double surface_area(const ColliderShape& shape);
+/// A body weighs at least so many times what cloth weighs that covers it: it learns of what touches it a substep late
+/// (docs/physics.md 11).
+inline constexpr double least_mass_ratio = 2;
+
 }  // namespace drape

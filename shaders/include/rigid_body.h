@@ -48,19 +48,26 @@ SHARED vec4 turned_on(vec4 turn, vec3 half_way) {
 
 const int rigid_midpoint_rounds = 3;  // of the midpoint's fixed point: each leaves a share h |w| of the error
 
-/// Returns the body a step later. `gravity`: m/s^2; `step`: s.
-SHARED RigidBody advanced_body(RigidBody body, vec3 inverse_inertia, vec3 gravity, float step) {
+/// Returns the body with the velocity that gravity, m/s^2, gives it in a step, s.
+SHARED RigidBody fallen_body(RigidBody body, vec3 gravity, float step) {
     RigidBody next = body;
     precise vec3 gain = gravity * step + body.slower;
     precise vec3 velocity = body.velocity + gain;
     precise vec3 slower = gain - (velocity - body.velocity);
-    precise vec3 way = velocity * step + body.remainder;
-    precise vec3 position = body.position + way;
-    precise vec3 lost = way - (position - body.position);
     next.velocity = velocity;
     next.slower = slower;
+    return next;
+}
+
+/// Returns the body where its velocity and its angular momentum take it in a step, s.
+SHARED RigidBody moved_body(RigidBody body, vec3 inverse_inertia, float step) {
+    RigidBody next = body;
+    precise vec3 way = body.velocity * step + body.remainder;
+    precise vec3 position = body.position + way;
+    precise vec3 lost = way - (position - body.position);
     next.position = position;
     next.remainder = lost;
+    if (body.spin.x == 0.0f && body.spin.y == 0.0f && body.spin.z == 0.0f) return next;
     vec4 middle = body.turn;
     for (int round = 0; round < rigid_midpoint_rounds; ++round) {
         vec3 rate = angular_velocity(middle, body.spin, inverse_inertia);
@@ -71,6 +78,10 @@ SHARED RigidBody advanced_body(RigidBody body, vec3 inverse_inertia, vec3 gravit
     precise vec3 half_way = rate * (step * 0.5f);
     next.turn = turned_on(body.turn, half_way);
     return next;
+}
+
+SHARED RigidBody advanced_body(RigidBody body, vec3 inverse_inertia, vec3 gravity, float step) {
+    return moved_body(fallen_body(body, gravity, step), inverse_inertia, step);
 }
 
 /// Returns the body with an impulse, N s, and its moment about the centre of mass, N m s.
