@@ -8,6 +8,7 @@
 #include "cloth/cloth_statistics.h"
 #include "cloth/forces.h"
 #include "shared/bend_types.h"
+#include "shared/body_types.h"
 #include "shared/cut_types.h"
 #include "shared/line_types.h"
 #include "shared/residual_types.h"
@@ -22,9 +23,11 @@ using Context = const FieldContext&;
 using Bytes = std::vector<std::byte>;
 
 bool always(Context) { return true; }
-bool tells_forces(Context c) { return c.model.scene.forces; }
+bool sums_impulses(Context c) { return drape::sums_impulses(c.model.scene); }
 bool splits_pins(Context c) { return drape::splits_pins(c.model.scene); }
 std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
+bool bears_bodies(Context c) { return has_bodies(c.model, index_of(c)); }
+bool strikes_bodies(Context c) { return body_count(c.model) > 0; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool windy(Context c) { return c.model.windy; }
@@ -67,6 +70,8 @@ FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.col
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent impulse_table(Context c) { return {glsl::impulse_columns, impulse_row_count(c.model.scene)}; }
+FieldExtent body_list(Context c) { return {body_count(c.model)}; }
+FieldExtent body_table(Context c) { return {glsl::body_texels, body_count(c.model)}; }
 FieldExtent torque_list(Context c) { return {glsl::torque_texels, torque_count(c.cloth.grid)}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
 FieldExtent tether_list(Context c) { return {c.cloth.tethers.size()}; }
@@ -130,7 +135,15 @@ std::vector<FieldRow> motion_rows() {
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::loads, "loads", image, vector, constant, loaded, load_list,
          [](Context c) { return bytes_of_list(c.cloth.loads); }},
-        {Field::impulses, "impulses", image, integer, state, tells_forces, impulse_table},
+        {Field::impulses, "impulses", image, integer, state, sums_impulses, impulse_table},
+        {Field::bodies, "bodies", image, vector, state, bears_bodies, body_table,
+         [](Context c) { return bytes_of_list(bodies_at_start(c.model, c.cloth.member)); }},
+        {Field::body_constants, "body constants", buffer, layout_of<glsl::BodyConstants>(), constant, bears_bodies,
+         body_list, [](Context c) { return bytes_of_list(body_constants(c.model, c.cloth.member)); }},
+        {Field::struck, "struck", image, integer, state, strikes_bodies,
+         [](Context c) {
+             return FieldExtent{glsl::impulse_columns, body_count(c.model)};
+         }},
         {Field::pin_numbers, "pin numbers", image, integer, constant, splits_pins, particles,
          [](Context c) { return bytes_of_list(pin_numbers(c.model, index_of(c))); }},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},

@@ -42,6 +42,9 @@ enum class Field : std::uint8_t {
     wind_force,                ///< N
     loads,                     ///< ClothGeometry::loads
     impulses,                  ///< what changes the momentum in the frame (shared/impulse_types.h)
+    bodies,                    ///< of a member's first cloth: its bodies (shared/body_types.h), of which
+    body_constants,            ///< these are the constants; and by body, of the sums of impulses on a cloth,
+    struck,                    ///< what the body got the opposite of in this frame so far
     pin_numbers,               ///< by particle, 1 and the number of the pin that holds it at the start, or 0
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< displacement after the second round of boxes' edges, m; w as before

@@ -104,7 +104,7 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
         statistics.potential_energy -= statistics.mass * gravity[k] * statistics.center_of_mass[k];
     }
     set_momenta(cloth, record, frame / model.scene.time.fps, statistics);
-    if (!impulses.empty())
+    if (model.scene.forces && !impulses.empty())
         statistics.forces = cloth_forces(model, static_cast<std::size_t>(&cloth - model.cloths.data()), impulses,
                                          statistics.mass, frame);
     if (!model.scene.colliders.empty()) {

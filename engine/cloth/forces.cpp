@@ -222,6 +222,11 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
     return all;
 }
 
+bool sums_impulses(const SceneDescription& scene) {
+    return scene.forces ||
+           std::ranges::any_of(scene.colliders, [](const Collider& each) { return each.mass.has_value(); });
+}
+
 std::uint32_t first_pin_row(const SceneDescription& scene) {
     return static_cast<std::uint32_t>(glsl::impulse_first + scene.colliders.size());
 }

@@ -30,6 +30,8 @@ struct ForceSource {
 /// Returns what may change a cloth's momentum, by cause; nothing else does.
 std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t cloth);
 
+/// Returns whether a scene's impulses are summed: it wants forces, or has bodies, which get the opposite.
+bool sums_impulses(const SceneDescription& scene);
 /// Returns the number of rows of each cloth's sums: the same for all cloths of a scene, since some share images.
 std::uint32_t impulse_row_count(const SceneDescription& scene);
 /// Returns the row of a cloth's first pin.

@@ -173,11 +173,27 @@ void add_momenta(const SimulationModel& model, float sign, std::vector<Step>& st
 }
 
 void add_begin_of_impulses(const SimulationModel& model, std::vector<Step>& steps) {
-    if (!model.scene.forces) return;
+    if (!sums_impulses(model.scene)) return;
     const glsl::ClearImpulsesPush push{static_cast<int>(impulse_row_count(model.scene)), impulse_units(model)};
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         steps.push_back({StepKind::clear_impulses, cloth, 0, 0, push});
     add_momenta(model, -1, steps);
+}
+
+/// Moves the bodies of every member, before anything of a substep.
+void add_motion_of_bodies(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps) {
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        if (has_bodies(model, cloth))
+            steps.push_back(
+                {StepKind::body_move, cloth, substep, 0, body_move_push(model, model.cloths[cloth].member, substep)});
+}
+
+/// Gives them what the cloths gave, after all else of a substep.
+void add_strikes(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps) {
+    if (body_count(model) == 0) return;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        steps.push_back(
+            {StepKind::body_strike, cloth, substep, 0, body_strike_push(model, model.cloths[cloth], substep)});
 }
 
 }  // namespace
@@ -188,8 +204,10 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
+        add_motion_of_bodies(model, substep, steps);
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) Substep(model, cloth, substep, steps).add();
         if (model.self_contact) ContactSteps(model, substep, steps).add();
+        add_strikes(model, substep, steps);
     }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
     add_momenta(model, 1, steps);

@@ -26,8 +26,9 @@ Difference differ(const std::string& pointer, const Value& first, const std::typ
 }
 
 std::string kinds(const std::vector<Collider>& colliders) {
-    std::vector<std::string_view> names;
-    for (const Collider& collider : colliders) names.push_back(collider_lists[collider.shape.index()]);
+    std::vector<std::string> names;
+    for (const Collider& collider : colliders)
+        names.push_back(std::string(collider_lists[collider.shape.index()]) + (collider.mass ? " (with a mass)" : ""));
     std::ranges::sort(names);
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }

@@ -33,6 +33,7 @@ SimulationModel::SimulationModel(const SimulationModel& run, std::uint32_t subst
       choice(run.choice),
       options(run.options),
       kept_colliders(run.kept_colliders),
+      bodies(run.bodies),
       mesh_fields(run.mesh_fields),
       windy(run.windy),
       weighs(run.weighs),
@@ -64,6 +65,8 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
             scene.cloths.push_back(one.scene.cloths[cloth]);
             scene.cloths.back().name = model.name;
         }
+        bodies.push_back(one.bodies.front());
+        bodies.back().first_list = kept_colliders.size();
         kept_colliders.insert(kept_colliders.end(), one.kept_colliders.begin(), one.kept_colliders.end());
         colliders_move = colliders_move || one.colliders_move;
     }
@@ -97,6 +100,7 @@ void SimulationModel::add_colliders() {
         cloths[cloth].collider_list = static_cast<std::size_t>(list - kept_colliders.begin());
         if (list == kept_colliders.end()) kept_colliders.push_back(std::move(kept));
     }
+    bodies = {bodies_of(scene, kept_colliders.size())};
 }
 
 void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/bodies.h"
 #include "cloth/companions.h"
 #include "cloth/mesh_fields.h"
 #include "cloth/self_contact.h"
@@ -38,9 +39,10 @@ struct SimulationModel {
     /// The shapes that contact keeps particles out of (world/contact_shape.h): the scene's colliders, in one list for
     /// all cloths that need the same shapes and leave them the same way.
     std::vector<std::vector<KeptCollider>> kept_colliders;
-    MeshFields mesh_fields;  ///< distances to the colliders that are meshes
-    bool windy;              ///< substeps have a wind pass: wind blows, actions may make it blow, or gravity changes
-    bool weighs;             ///< the wind pass also adds the change of gravity since the start
+    std::vector<MemberBodies> bodies;  ///< by member
+    MeshFields mesh_fields;            ///< distances to the colliders that are meshes
+    bool windy;   ///< substeps have a wind pass: wind blows, actions may make it blow, or gravity changes
+    bool weighs;  ///< the wind pass also adds the change of gravity since the start
     bool colliders_move = false;   ///< some collider is key-framed, so each substep has records of its own
     std::size_t member_count = 1;  ///< the number of scenes that the cloths belong to (ClothModel::member)
     /// Returns the rounds over all colliders in a collision step; a single collider needs one, since it overlaps no

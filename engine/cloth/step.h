@@ -9,6 +9,7 @@
 
 #include "drape/kernels.h"
 #include "shared/bend_types.h"
+#include "shared/body_types.h"
 #include "shared/impulse_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
@@ -48,6 +49,8 @@ enum class StepKind {
     decide,
     advance,
     clear_impulses,
+    body_move,
+    body_strike,
     momentum,
     self_gather,
     self_boxes,
@@ -75,7 +78,8 @@ using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
-                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush>;
+                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush, glsl::BodyMovePush,
+                 glsl::BodyStrikePush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {
@@ -129,6 +133,8 @@ struct Step {
     const Push& push() const {
         return std::get<Push>(constants);
     }
+    /// Returns whether the step is one of the bodies of its cloth's member. No step moves past it.
+    bool is_of_bodies() const { return kind == StepKind::body_move || kind == StepKind::body_strike; }
 };
 
 }  // namespace drape

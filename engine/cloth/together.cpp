@@ -205,6 +205,8 @@ bool in_images(const Step& step) {
     }
 }
 
+bool ends_section(const Step& step) { return step.cloth == between_cloths || step.is_of_bodies(); }
+
 bool same_constants(const StepConstants& one, const StepConstants& other) {
     return std::visit(
         [&]<class Push>(const Push& constants) {
@@ -392,9 +394,9 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
             places[lists[list][within]] = {list, within};
     std::map<std::tuple<std::size_t, std::uint32_t, std::size_t>, Substep>
         substeps;          // by list, substep, and section of the substep
-    std::size_t part = 0;  // counts steps of contact, past which no step may move
+    std::size_t part = 0;  // counts steps of contact and of bodies, past which no step may move
     for (const Step& step : steps) {
-        part += step.cloth == between_cloths ? 1 : 0;
+        part += ends_section(step) ? 1 : 0;
         if (const auto place = places.find(step.cloth); place != places.end())
             substeps.try_emplace({place->second.list, step.substep, part}, lists[place->second.list].size())
                 .first->second.add(place->second.within, step);
@@ -402,7 +404,7 @@ std::vector<Step> steps_together(const std::vector<Step>& steps, const std::vect
     std::vector<Step> merged;
     part = 0;
     for (const Step& step : steps) {
-        part += step.cloth == between_cloths ? 1 : 0;
+        part += ends_section(step) ? 1 : 0;
         const auto place = places.find(step.cloth);
         if (place == places.end()) {
             merged.push_back(step);

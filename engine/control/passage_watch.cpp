@@ -120,7 +120,7 @@ std::vector<Passage> passages(const SimulationModel& model, std::size_t index, c
         const Collider& collider = kept[k].collider;
         const auto solid_of = [](const auto& shape) { return solid(shape); };
         const std::optional<Solid> body = std::visit(solid_of, collider.shape);
-        if (!body) continue;
+        if (!body || collider.mass) continue;  // only the device knows where a body is (docs/physics.md 11)
         const double apart =
             least_length(minus(collider_pose(collider, frame.start).center, frame.before.center_of_mass),
                          minus(collider_pose(collider, frame.end).center, frame.now.center_of_mass));

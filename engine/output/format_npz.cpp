@@ -31,7 +31,8 @@ FrameValues numbers_of(const FrameValues& values, const std::string& label) {
              {"substeps", "attempts", "motion_error_m_s", "motion_allowed_m_s", "position_error_m",
               "position_error_at_end_m", "position_allowed_m", "parted_m", "sensitive", "asleep"})
             if (name == effort) numbers[name] = value;
-        if (name.starts_with("failed_") || name.starts_with("given_")) numbers[name] = value;
+        if (name.starts_with("failed_") || name.starts_with("given_") || name.starts_with("body_"))
+            numbers[name] = value;
     }
     return numbers;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "drape/frame.h"
 #include "drape/scene.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
@@ -36,6 +38,9 @@ struct WrittenCloth {
     std::array<float, 2> uv(std::size_t particle) const;
 };
 
+/// Where bodies that cloth moves are, by frame, as far as the run has come.
+using BodyTracks = std::map<std::uint32_t, std::vector<BodyState>>;
+
 struct WrittenRun {
     std::vector<WrittenCloth> cloths;
     std::uint32_t start = 0, end = 0, step = 1;  ///< frames, `end` inclusive
@@ -50,6 +55,8 @@ struct WrittenRun {
     std::uint32_t seed = 0;         ///< determines the gusts
     std::vector<std::pair<std::string, std::string>> set =
         {};  ///< name and NPY text of what overrides gave (set_arrays)
+    /// Filled with each frame before the writers get it; the colliders' placements look there.
+    std::shared_ptr<BodyTracks> bodies = std::make_shared<BodyTracks>();
     std::vector<WrittenCollider> colliders = {};
     std::vector<WrittenCollider> obstacles = {};  ///< the same colliders for graph networks, which know only nodes
 

@@ -95,7 +95,7 @@ void Pictures::begin(PendingPicture& picture, std::uint32_t slot) {
         std::memcpy(pool_->buffer(position_upload_name(model_.cloths[cloth]), slot).mapped().data(), bytes.data(),
                     bytes.size());
     }
-    raster_->write_frame(*pool_, slot, frame.frame / model_.scene.time.fps);
+    raster_->write_frame(*pool_, slot, frame.frame / model_.scene.time.fps, frame.bodies);
     slots_.submit(slot, recorded_->commands(slot));
     picture.slot = slot;
 }

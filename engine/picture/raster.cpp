@@ -12,6 +12,7 @@
 #include "solver/kernel_choice.h"
 #include "vulkan/api.h"
 #include "vulkan/resources.h"
+#include "world/body_pose.h"
 
 namespace drape {
 
@@ -403,11 +404,17 @@ Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) con
     return picture;
 }
 
-void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const {
+void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time,
+                             std::span<const BodyState> moved) const {
     const auto write = [&](const char* name, std::span<const std::byte> bytes) {
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
-    const std::vector<Collider> bodies = drawn_bodies(time);
+    std::vector<Collider> bodies = drawn_bodies(time);
+    // The floor is one of the planes, which all come before whatever has a mass.
+    for (const BodyState& body : moved) {
+        Collider& drawn = bodies[body.collider - (bodies_.has_floor ? 1 : 0)];
+        drawn = placed(drawn, body);
+    }
     const std::vector<glsl::ColliderInstance> instances =
         collider_instances(bodies, frame_view_.plane_extent_at(time), time);
     const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, frame_view_.camera_at(time));

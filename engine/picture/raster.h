@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "drape/frame.h"
 #include "drape/scene.h"
 #include "drape/view.h"
 #include "graph/executor.h"
@@ -57,7 +58,9 @@ class RasterPass {
     void upload(const graph::ResourcePool& pool) const;
 
     /// Fills the host inputs of a slot for the picture at `time` (s).
-    void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time) const;
+    /// `moved`: where bodies that cloth moves are.
+    void write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time,
+                     std::span<const BodyState> moved = {}) const;
 
     /// Draws into a picture that was read back what the host draws: the legend of a heat map.
     void finish(std::span<std::byte> rgba) const;

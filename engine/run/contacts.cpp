@@ -25,9 +25,8 @@ float distance_to(const Collider& kept, const glsl::ColliderRecord& record, cons
 
 }  // namespace
 
-std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::size_t cloth, double time,
+std::vector<std::int16_t> touched_colliders(const Cloth& shape, const std::vector<Collider>& colliders, double time,
                                             std::span<const float> xyzw) {
-    const Cloth& shape = scene.cloths[cloth];
     const double edge = least_spacing(shape);
     const auto reach = static_cast<float>(shape.thickness + contact_reach * edge);
     std::vector<std::int16_t> touched(xyzw.size() / 4, -1);
@@ -36,9 +35,9 @@ std::vector<std::int16_t> touched_colliders(const SceneDescription& scene, std::
         for (std::size_t particle = 0; particle < nearest.size(); ++particle)
             nearest[particle] =
                 static_cast<float>(shape.thickness * double{thickness_factor(shape, particle)} + contact_reach * edge);
-    for (std::size_t number = 0; number < scene.colliders.size(); ++number) {
-        const int kind = scene.colliders[number].kind();
-        const Collider kept = formed(contact_shape(shape, scene.colliders[number]), time);
+    for (std::size_t number = 0; number < colliders.size(); ++number) {
+        const int kind = colliders[number].kind();
+        const Collider kept = formed(contact_shape(shape, colliders[number]), time);
         const glsl::ColliderRecord record = collider_record(kept, time, time);
         for (std::size_t particle = 0; particle < touched.size(); ++particle) {
             if (xyzw[4 * particle + 3] == 0) continue;

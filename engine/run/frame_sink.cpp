@@ -7,6 +7,7 @@
 
 #include "run/contacts.h"
 #include "run/given_values.h"
+#include "world/body_pose.h"
 
 namespace drape {
 
@@ -31,6 +32,7 @@ Sink::Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const
     : scene_(scene),
       kept_(kept),
       journal_(journal),
+      bodies_(run.bodies),
       details_(request.details()),
       statistics_(std::make_shared<RunStatistics>(folder ? &*folder : nullptr)) {
     if (folder) times_.emplace(*folder);
@@ -45,8 +47,10 @@ Sink::Sink(std::optional<OutputFolder>& folder, const RunRequest& request, const
 
 Sink::Contacts Sink::touched(std::uint32_t frame, const std::vector<std::span<const float>>& positions) const {
     Contacts all;
-    for (std::size_t cloth = 0; details_ && cloth < positions.size(); ++cloth)
-        all.push_back(touched_colliders(scene_, cloth, frame / scene_.time.fps, positions[cloth]));
+    if (!details_) return all;
+    const std::vector<Collider> colliders = placed(scene_.colliders, bodies_->at(frame));
+    for (std::size_t cloth = 0; cloth < positions.size(); ++cloth)
+        all.push_back(touched_colliders(scene_.cloths[cloth], colliders, frame / scene_.time.fps, positions[cloth]));
     return all;
 }
 
@@ -58,6 +62,7 @@ void Sink::write(const WrittenFrame& frame) {
 }
 
 void Sink::add(const FinishedFrame& frame) {
+    (*bodies_)[frame.frame] = frame.bodies;
     const Contacts contacts = touched(frame.frame, frame.positions);
     const WrittenFrame written{frame.frame,
                                frame.rgba,
@@ -83,6 +88,7 @@ void Sink::repeat(const JournalRecord& frame) {
     WrittenFrame written{frame.frame, {}, {}, {}, {}, frame.values};
     for (const auto& cloth : frame.positions) written.positions.emplace_back(cloth);
     for (const auto& cloth : frame.velocities) written.velocities.emplace_back(cloth);
+    (*bodies_)[frame.frame] = bodies_of(scene_, frame.values);
     const Contacts contacts = touched(frame.frame, written.positions);
     for (const auto& cloth : contacts) written.contacts.emplace_back(cloth);
     write(written);

@@ -59,6 +59,7 @@ class Sink {
     const SceneDescription& scene_;
     const std::map<std::uint32_t, KeptFrame>& kept_;
     Journal* journal_;
+    std::shared_ptr<BodyTracks> bodies_;
     bool details_;
     std::vector<Writer> writers_;
     std::vector<Manifest::Cut> cuts_;

@@ -123,8 +123,8 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.seed = scene.wind.gust.seed;
     run.set = set_arrays(manifest.scene.overrides);
     run.up = scene.up;
-    run.colliders = written_colliders(scene);
-    run.obstacles = written_obstacles(scene);
+    run.colliders = written_colliders(scene, run.bodies);
+    run.obstacles = written_obstacles(scene, run.bodies);
     if (request.details()) {
         run.scene = resolved_text(request.scene, loaded);
         run.parameters = run_parameters(scene, manifest);

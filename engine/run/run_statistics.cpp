@@ -54,6 +54,25 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
     if (statistics.penetration) values[cloth + "/penetration_m"] = *statistics.penetration;
 }
 
+/// Calls `visit` with the name and the place of each number of a body.
+template <class State, class Visit>
+void for_each_number(const SceneDescription& scene, State& body, const Visit& visit) {
+    const std::string before =
+        fmt::format("body_{}_{}", body.collider, collider_names[scene.colliders[body.collider].shape.index()]);
+    const auto visit_all = [&](const char* what, const char* unit, auto& numbers) {
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            visit(fmt::format("{}_{}_{}{}", before, what, "xyzw"[k], unit), numbers[k]);
+    };
+    visit_all("position", "_m", body.position);
+    visit_all("turn", "", body.turn);
+    visit_all("velocity", "_m_s", body.velocity);
+    visit_all("angular_velocity", "_rad_s", body.angular_velocity);
+    visit_all("momentum", "_kg_m_s", body.momentum);
+    visit_all("angular_momentum", "_kg_m2_s", body.angular_momentum);
+    visit(before + "_kinetic_energy_j", body.kinetic_energy);
+    visit(before + "_potential_energy_j", body.potential_energy);
+}
+
 std::optional<double> energy(const FrameValues& values) {
     const auto found = values.find("energy_j");
     return found == values.end() ? std::nullopt : std::optional(found->second);
@@ -98,6 +117,11 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         potential += cloths[cloth].potential_energy;
         elastic += cloths[cloth].elastic_energy;
     }
+    for (const BodyState& body : frame.bodies) {
+        for_each_number(scene, body, [&](const std::string& name, double value) { values[name] = value; });
+        kinetic += body.kinetic_energy;
+        potential += body.potential_energy;
+    }
     for (const ClothStatistics& cloth : cloths) {
         if (!cloth.penetration) continue;
         double& deepest = values.try_emplace("penetration_m", *cloth.penetration).first->second;
@@ -109,6 +133,17 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
     values["energy_j"] = kinetic + potential + elastic;
     std::erase_if(values, [](const auto& entry) { return !std::isfinite(entry.second); });
     return values;
+}
+
+std::vector<BodyState> bodies_of(const SceneDescription& scene, const FrameValues& values) {
+    std::vector<BodyState> bodies;
+    for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
+        if (!scene.colliders[k].mass) continue;
+        BodyState body{.collider = k};
+        for_each_number(scene, body, [&](const std::string& name, double& value) { value = value_of(values, name); });
+        bodies.push_back(body);
+    }
+    return bodies;
 }
 
 RunStatistics::RunStatistics(OutputFolder* folder) {

@@ -16,6 +16,8 @@ namespace drape {
 /// Returns values by name, "<cloth>/stretch_rms" and so on. Names without a cloth are sums over the cloths, and the
 /// deepest penetration. A number that overflowed single precision is left out, since JSON cannot express it.
 FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& frame);
+/// Returns a frame's bodies from its values.
+std::vector<BodyState> bodies_of(const SceneDescription& scene, const FrameValues& values);
 
 class RunStatistics {
   public:

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "scene/oracle_kinds.h"
+#include "world/body_pose.h"
 #include "world/contact_shape.h"
 #include "world/motion.h"
 #include "world/start_crossings.h"
@@ -230,9 +231,18 @@ Verdict mass_kept(const SceneRun& run, const Limits& limits) {
             fmt::format("mass and drawn area off by {:.2e}, allowed {:.2e}", worst, limits["relative_error"])};
 }
 
+/// Returns where a collider is in a frame, in the shape that contact keeps cloth from.
+ColliderPose pose_in(const SceneRun& run, std::size_t frame, std::size_t number, const Collider& kept) {
+    if (kept.mass && frame < run.bodies.size())
+        for (const BodyState& body : run.bodies[frame])
+            if (body.collider == number) return collider_pose(placed(kept, body), 0);
+    return collider_pose(kept, run.time(frame));
+}
+
 /// Returns how far the deepest particle is below the surface that contact keeps (world/contact_shape.h), offset by the
 /// cloth's thickness. The unit is half of the collider's least width; for a plane, the metre.
-double deepest(const SceneRun& run, const Collider& collider) {
+double deepest(const SceneRun& run, std::size_t number) {
+    const Collider& collider = run.scene.colliders[number];
     const double size = special(collider.shape).plane ? 1 : shape_geometry(collider.shape).half_width;
     double depth = -std::numeric_limits<double>::infinity();
     for (std::size_t cloth = 0; cloth < run.scene.cloths.size(); ++cloth) {
@@ -240,7 +250,7 @@ double deepest(const SceneRun& run, const Collider& collider) {
         const double thickness = run.scene.cloths[cloth].thickness, reach = shape_geometry(kept.shape).reach;
         for (std::size_t frame = 1; frame < run.frames.size(); ++frame) {
             const double time = run.time(frame);
-            const ColliderPose pose = collider_pose(kept, time);
+            const ColliderPose pose = pose_in(run, frame, number, kept);
             const Collider now = formed(kept, time);
             for (std::size_t particle = 0; particle < run.frames[frame][cloth].size(); ++particle) {
                 if (run.frames[frame][cloth][particle].w == 0) continue;
@@ -257,8 +267,9 @@ double deepest(const SceneRun& run, const Collider& collider) {
 Verdict penetration(const SceneRun& run, const Limits& limits) {
     double worst = -std::numeric_limits<double>::infinity();
     std::string depths;
-    for (const Collider& collider : run.scene.colliders) {
-        const double depth = deepest(run, collider);
+    for (std::size_t number = 0; number < run.scene.colliders.size(); ++number) {
+        const Collider& collider = run.scene.colliders[number];
+        const double depth = deepest(run, number);
         worst = std::max(worst, depth);
         depths +=
             fmt::format("{}{:.2e} (of {})", depths.empty() ? "" : ", ", depth, collider_lists[collider.shape.index()]);

@@ -62,6 +62,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     const auto keep = [&](const FinishedFrame& frame) {
         if (wanted.frame) wanted.frame(frame);
         if (!wanted.positions) return;
+        run.bodies.push_back(frame.bodies);
         auto& cloths = run.frames.emplace_back();
         for (const std::span<const float> values : frame.positions) {
             auto& texels = cloths.emplace_back(values.size() / 4);

@@ -29,6 +29,7 @@ struct SceneRun {
     std::vector<std::vector<std::vector<glsl::vec4>>> frames;  ///< [frame][cloth][particle]
 
     std::vector<CutRecord> cuts;  ///< in order; if the scene has cutters, one for each cloth at frame 0
+    std::vector<std::vector<BodyState>> bodies = {};  ///< [frame]: those that cloth moves; none where no scene has any
 
     std::size_t last_frame() const { return frames.size() - 1; }
     double time(std::size_t frame) const { return static_cast<double>(frame) / scene.time.fps; }  ///< s

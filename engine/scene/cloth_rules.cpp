@@ -402,6 +402,7 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (!cloths_meet(scene)) warn_of_touching(node, cloths);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
+    if (members.fit({"cloths", "colliders", "solver"})) check_bodies(members, scene);
     if (members.fit({"cloths", "colliders", "overlap"})) check_overlaps(node, scene);
     if (members.fit({"cloths", "overlap"}) && cloths_meet(scene)) check_crossings(node, scene);
     if (members.fit({"cloths", "forces"})) check_forces(node, scene);

@@ -27,6 +27,25 @@ std::vector<Key<Collider>> keys_of(const std::vector<Key<Shape>>& own) {
     return keys;
 }
 
+/// Returns the keys of a collider of one shape that may be a body.
+template <class Shape>
+std::vector<Key<Collider>> body_keys_of(const std::vector<Key<Shape>>& own) {
+    std::vector<Key<Collider>> keys = keys_of<Shape>(own);
+    const Key<Collider> of_bodies[] = {
+        {"mass", &Collider::mass, optional(number(positive)),
+         "kg: gravity, cloth and planes move the collider, which has no path then. The solver's method must be named. "
+         "At least twice what the cloth weighs that its surface could touch."},
+        {"inertia", &Collider::inertia, optional(three_numbers(positive)),
+         "kg m^2: its principal moments of inertia, about its centre of mass along its own axes (a capsule's y is its "
+         "length). Absent: those of one density."},
+        {"velocity", &Collider::velocity, vec3, "m/s, of a body at the start."},
+        {"angular_velocity", &Collider::angular_velocity, vec3,
+         "rad/s about the world's axes, of a body at the start."},
+    };
+    keys.insert(keys.end(), std::begin(of_bodies), std::end(of_bodies));
+    return keys;
+}
+
 inline const Object<Collider> plane{
     "plane", "The cloth stays where normal . x >= offset, with the normal made unit length first.",
     keys_of<Plane>({
@@ -34,21 +53,26 @@ inline const Object<Collider> plane{
          "Points to the outside. Where z is up, the default is [0, 0, 1]."},
         {"offset", &Plane::offset, number(any_number), "Metres from the origin along the unit normal."},
     })};
+inline constexpr const char* body_schema = R"("not": {"required": ["mass", "path"]})";
+
 inline const Object<Collider> sphere{"sphere", "A solid ball.",
-                                     keys_of<Sphere>({
+                                     body_keys_of<Sphere>({
                                          {"center", &Sphere::center, vec3, "Metres."},
                                          {"radius", &Sphere::radius, number(positive), "Metres."},
-                                     })};
+                                     }),
+                                     check_body, body_schema};
 inline const Object<Collider> box{"box", "A solid box.",
-                                  keys_of<Box>({
+                                  body_keys_of<Box>({
                                       {"center", &Box::center, vec3, "Metres."},
                                       {"half_extents", &Box::half_extents, extents, "Half the edge lengths, metres."},
-                                  })};
+                                  }),
+                                  check_body, body_schema};
 inline const Object<Collider> ellipsoid{"ellipsoid", "A solid ellipsoid.",
-                                        keys_of<Ellipsoid>({
+                                        body_keys_of<Ellipsoid>({
                                             {"center", &Ellipsoid::center, vec3, "Metres."},
                                             {"radii", &Ellipsoid::radii, extents, "Half axes, metres."},
-                                        })};
+                                        }),
+                                        check_body, body_schema};
 
 /// Reads one radius for both ends.
 inline Value<std::array<double, 2>> equal_radii() {
@@ -66,13 +90,13 @@ inline const Object<Collider> capsule{
     "capsule",
     "A sphere swept along a segment: a rod with round ends. With two radii it tapers; one end inside the other leaves "
     "the larger ball. Its centre is the segment's middle. At most one of radius and radii.",
-    keys_of<Capsule>({
+    body_keys_of<Capsule>({
         {"from", &Capsule::from, vec3, "Metres: centre of one end."},
         {"to", &Capsule::to, vec3, "Metres: centre of the other end."},
         {"radius", &Capsule::radii, equal_radii(), "Metres."},
         {"radii", &Capsule::radii, without_default(two_numbers(positive)), "Metres, at from and at to."},
     }),
-    check_capsule, R"("not": {"required": ["radius", "radii"]})"};
+    check_capsule, R"("allOf": [{"not": {"required": ["radius", "radii"]}}, {"not": {"required": ["mass", "path"]}}])"};
 
 inline const Object<Collider> mesh{
     "mesh",

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "drape/error.h"
 #include "mesh/distance_field.h"
 #include "mesh/mesh_shape.h"
 #include "scene/scene_rules.h"
 #include "world/field_plan.h"
+#include "world/mass_properties.h"
 #include "world/triangle_crossings.h"
 
 namespace drape {
@@ -27,9 +30,61 @@ void warn_of_crossings(const SceneNode& file, const MeshShape& shape) {
 
 }  // namespace
 
-bool check_capsule(const Members& members, Collider&) {
-    if (!members["radius"] || !members["radii"]) return true;
-    return members.object().fail("expected radius or radii, got both");
+bool check_body(const Members& members, Collider& collider) {
+    if (members["mass"] && members["path"])
+        return members["path"].fail("expected no path beside a mass, with which gravity and cloth move the collider");
+    const auto alone = [&](const char* key, bool says) {
+        return says && !members["mass"] && !members[key].fail("expected a mass too, got none");
+    };
+    if (alone("inertia", collider.inertia.has_value()) || alone("velocity", collider.velocity != Vec3{}) ||
+        alone("angular_velocity", collider.angular_velocity != Vec3{}))
+        return false;
+    if (!collider.inertia || !members.fit({"inertia"})) return true;
+    const auto& [x, y, z] = *collider.inertia;
+    return (x <= y + z && y <= z + x && z <= x + y) ||
+           members["inertia"].fail("expected moments none of which exceeds the sum of the others");
+}
+
+bool check_capsule(const Members& members, Collider& collider) {
+    if (members["radius"] && members["radii"]) return members.object().fail("expected radius or radii, got both");
+    return check_body(members, collider);
+}
+
+namespace {
+
+/// Returns where the scene file has a collider, and its mass.
+SceneNode mass_of(const SceneNode& colliders, const SceneDescription& scene, std::size_t number) {
+    const std::size_t kind = scene.colliders[number].shape.index();
+    std::size_t place = 0;
+    for (std::size_t k = 0; k < number; ++k) place += scene.colliders[k].shape.index() == kind ? 1 : 0;
+    return colliders.member(std::string(collider_lists[kind])).element(place).member("mass");
+}
+
+}  // namespace
+
+bool check_bodies(const Members& members, const SceneDescription& scene) {
+    double heaviest = 0;
+    for (const Cloth& cloth : scene.cloths) {
+        const std::vector<float>& factors = cloth.cell_density;
+        const double most = factors.empty() ? 1 : double{std::ranges::max(factors)};
+        heaviest = std::max(heaviest, most * cloth.areal_density);
+    }
+    for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
+        const Collider& body = scene.colliders[k];
+        if (!body.mass) continue;
+        const SceneNode mass = mass_of(members["colliders"], scene, k);
+        if (scene.solver.method == SolverMethod::automatic)
+            return mass.fail("expected no mass where solver.method is auto: name a method for bodies that cloth moves");
+        if (scene.solver.estimate_error.value_or(false))
+            return mass.fail("expected no mass where solver.estimate_error is true");
+        const double least = least_mass_ratio * heaviest * surface_area(body.shape);
+        if (*body.mass < least)
+            return mass.fail(
+                fmt::format("expected at least {:.3g} kg, {} times what cloth of {:.3g} kg/m^2 weighs "
+                            "that covers the body, got {:.3g}",
+                            least, least_mass_ratio, heaviest, *body.mass));
+    }
+    return true;
 }
 
 bool check_mesh(const Members& members, Collider& collider) {

@@ -74,6 +74,10 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
                                                           {"bottom_left", {{0, 1}, {0, 1}}},
                                                           {"bottom_right", {{1, 1}, {1, 1}}}};
 
+/// Bodies have no path, and what bodies alone have needs a mass.
+bool check_body(const Members& members, Collider& collider);
+/// They need a named method, and weigh enough beside the cloth that may touch them.
+bool check_bodies(const Members& members, const SceneDescription& scene);
 bool check_capsule(const Members& members, Collider& collider);
 /// Reads the mesh's files.
 bool check_mesh(const Members& members, Collider& collider);

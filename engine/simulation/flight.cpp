@@ -63,6 +63,14 @@ struct Arrays {
     std::vector<std::span<const float>> positions, normals, moved, excess;
 };
 
+/// Returns the state of the bodies that lies with a cloth.
+std::span<const float> read_bodies(const FrameGraphs& graphs, std::uint32_t slot, std::size_t cloth) {
+    const ClothLayout& layout = graphs.layout();
+    const std::string name = readback_name(layout.state_name(cloth), bodies_readback);
+    const std::span<const std::byte> bytes = layout.part_of(cloth, graphs.pool().buffer(name, slot));
+    return {reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)};
+}
+
 }  // namespace
 
 FrameContents contents_of(const FrameGraphs& graphs, const Job& job) {
@@ -177,6 +185,9 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
             raster->finish(bytes.first(raster->readback_byte_count()));
             frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster->readback_byte_count()};
         }
+        if (wanted && body_count(graphs.joint()) > 0)
+            frame.bodies = body_states(graphs.member_at(flight.members[place], flight.contents.substeps),
+                                       read_bodies(graphs, slot, flight.members[place] * each), work.frame);
         std::vector<std::vector<float>> velocities;
         for (std::size_t cloth = 0; cloth < each && wanted && !options.arrays_later; ++cloth) {
             const std::size_t k = flight.members[place] * each + cloth;

@@ -139,6 +139,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
 void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (options_.draw || options_.normals) solver_.add_normals(graph);
     if (options_.draw) raster_->add(graph, raster_cloths(*joint_, solver_.cloths()));
+    if (body_count(*joint_) > 0) solver_.add_body_readback(graph);
     if (options_.normals) solver_.add_readback(graph, Field::normal, "normal");
     if (options_.positions) solver_.add_readback(graph, Field::position, "position");
     if (!options_.velocities) return;

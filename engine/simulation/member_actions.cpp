@@ -92,6 +92,7 @@ class Acting {
     void move_colliders() {
         SimulationModel& model = member_.model;
         for (std::size_t k = 0; k < model.scene.colliders.size(); ++k) {
+            if (model.scene.colliders[k].mass) continue;  // gravity and cloth move it
             MotionPath& path = model.scene.colliders[k].path;
             move(path, actions_.colliders, number_ * model.scene.colliders.size() + k, member_.colliders_acted);
             for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = path;
@@ -174,7 +175,7 @@ SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& co
                 if (pin.path.keys.empty()) pin.path.keys.push_back({});
     if (controls.colliders)
         for (Collider& collider : scene.colliders)
-            if (!collider.path.moves()) {
+            if (!collider.path.moves() && !collider.mass) {
                 const MotionKey rest = key_at(collider.path, 0);
                 collider.path.keys = {rest, rest};
                 collider.path.keys[1].time = 1;

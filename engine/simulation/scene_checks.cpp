@@ -8,6 +8,7 @@
 
 #include "drape/scene_reader.h"
 #include "world/cloth_keys.h"
+#include "world/mass_properties.h"
 #include "world/overlap.h"
 #include "world/panel.h"
 #include "world/start.h"
@@ -208,6 +209,12 @@ Fault fault_of(const Cloth& cloth, ClothKey key) {
     return {};
 }
 
+bool is_body(const Collider& body) {
+    return is_positive(*body.mass) && std::ranges::all_of(body.inertia.value_or(Vec3{1, 1, 1}), is_positive) &&
+           is_finite(body.velocity) && is_finite(body.angular_velocity) && body.path.keys.empty() &&
+           surface_area(body.shape) > 0;
+}
+
 }  // namespace
 
 const SceneDescription& checked_scene(const SceneDescription& scene) {
@@ -238,6 +245,13 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     expect(std::ranges::min(scene.image.size) > 0 && (scene.image.samples == 1 || scene.image.samples == 4), "/image",
            "pixels, of 1 or 4 samples");
     expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
+    for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+        if (const Collider& body = scene.colliders[i]; body.mass)
+            expect(is_body(body) && scene.solver.method != SolverMethod::automatic &&
+                       !scene.solver.estimate_error.value_or(false),
+                   fmt::format("/colliders/{}/mass", i),
+                   "a mass above 0 of a sphere, box, ellipsoid or capsule without a path, and a named method without "
+                   "an estimated error");
     if (result.errors.empty() && scene.overlap == Overlap::refuse)
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),

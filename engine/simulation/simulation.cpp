@@ -146,7 +146,9 @@ struct Simulation::Parts {
 
     /// Makes the scene the only member of a server, and prepares the pictures if another device draws them.
     void serve_alone() {
-        Device::Parts* const drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
+        // What moves by itself is drawn once it is known where, on the same device if there is no other.
+        Device::Parts* drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
+        if (asked.draw && !drawing && body_count(model) > 0) drawing = device.parts_.get();
         server = std::make_shared<FrameServer>(device.parts_->device, model, drawing ? beside_pictures() : asked,
                                                listener(drawing != nullptr));
         if (drawing) pictures = std::make_unique<Pictures>(drawing->device, model, asked);

@@ -18,6 +18,7 @@
 #include "solver/statistics_pass.h"
 #include "solver/step_row.h"
 #include "solver/tear_pass.h"
+#include "vulkan/api.h"
 
 namespace drape {
 
@@ -86,6 +87,26 @@ void declare_lists(graph::Graph& graph, const ClothLayout& layout, const Simulat
     }
 }
 
+/// Adds a copy of the colliders as the host gives them, in which passes move bodies.
+graph::Handle add_copy_of_colliders(graph::Graph& graph, graph::Handle given) {
+    graph::BufferDeclaration copied = graph.resources()[given.resource].buffer;
+    copied.name = "moved colliders";
+    copied.lifetime = Lifetime::transient;
+    const auto copy = std::make_shared<graph::Handle>(graph.buffer(copied));
+    graph.add_pass(
+        {"copy of colliders", "simulate", "copy of colliders"},
+        [&](graph::PassSetup& setup) {
+            setup.read(given, graph::Access::transfer_read);
+            *copy = setup.write(*copy, graph::Access::transfer_write);
+        },
+        [given, copy, size = copied.byte_count](graph::PassContext& context) {
+            const VkBufferCopy region{0, 0, size};
+            vkCmdCopyBuffer(context.commands(), context.buffer(given).handle(), context.buffer(*copy).handle(), 1,
+                            &region);
+        });
+    return *copy;
+}
+
 /// Declares what says which of them are present.
 void declare_present(graph::Graph& graph, const Together& together, ClothState& whole) {
     whole.sizes_of_present = together.sizes_of_present;
@@ -140,6 +161,7 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
                                           .lifetime = Lifetime::host_input,
                                           .element = &glsl::layout_of<glsl::ColliderRecord>(),
                                           .texels = true});
+    if (body_count(model_) > 0) inputs_.colliders = add_copy_of_colliders(graph, inputs_.colliders);
     if (!model_.mesh_fields.empty())
         inputs_.mesh_fields =
             graph.buffer({.name = mesh_fields_name,
@@ -277,7 +299,9 @@ void ClothSolver::add_step(graph::Graph& graph, const Step& step) {
 }
 
 void ClothSolver::add_dispatches(graph::Graph& graph, const Step& step) {
-    if (step.cloth == between_cloths) {
+    if (step.is_of_bodies()) {
+        add_step_of_bodies(graph, step);
+    } else if (step.cloth == between_cloths) {
         add_step(graph, nullptr, step);
     } else if (step.together) {
         add_step(graph, &together_[layout_.list_of(step.cloth)], step);
@@ -288,6 +312,20 @@ void ClothSolver::add_dispatches(graph::Graph& graph, const Step& step) {
     } else {
         for_each_dispatch([&](ClothState& state) { add_step(graph, &state, step); });
     }
+}
+
+void ClothSolver::add_step_of_bodies(graph::Graph& graph, const Step& step) {
+    const std::size_t each = model_.cloths.size() / model_.member_count, bearer = step.cloth / each * each;
+    take(step.cloth);
+    take(bearer);
+    add_step_pass(graph, pipelines_, &cloths_[step.cloth], nullptr, inputs_, *run_, step, &cloths_[bearer]);
+    give_field(bearer, Field::bodies);
+    give_field(step.cloth, Field::struck);
+}
+
+void ClothSolver::give_field(std::size_t cloth, Field field) {
+    const graph::Handle own = cloths_[cloth][field];
+    if (!layout_.is_alone(cloth) && own.valid()) together_[layout_.list_of(cloth)][field] = {own.resource, own.version};
 }
 
 std::vector<Step> ClothSolver::steps() const {
@@ -316,6 +354,12 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 
 void ClothSolver::add_readback(graph::Graph& graph, Field image, std::string_view what) {
     for_each_dispatch([&](ClothState& state) { drape::add_readback(graph, state, state[image], what); });
+}
+
+void ClothSolver::add_body_readback(graph::Graph& graph) {
+    for_each_dispatch([&](ClothState& state) {
+        if (state[Field::bodies].valid()) drape::add_readback(graph, state, state[Field::bodies], bodies_readback);
+    });
 }
 
 void ClothSolver::add_attempt(graph::Graph& graph, StateStep step) {

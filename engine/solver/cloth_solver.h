@@ -42,6 +42,8 @@ class ClothSolver {
     void add_normals(graph::Graph& graph);
     /// Adds copies to the host of an image of four floats per particle, every cloth's `what` (solver/readback_pass.h).
     void add_readback(graph::Graph& graph, Field image, std::string_view what);
+    /// Adds copies to the host of every member's bodies (cloth/bodies.h).
+    void add_body_readback(graph::Graph& graph);
     /// Adds the statistics of every cloth (solver/statistics_pass.h).
     void add_statistics(graph::Graph& graph);
     /// Adds a pass that a closed loop needs around the attempts at a frame (solver/attempt_pass.h).
@@ -64,12 +66,14 @@ class ClothSolver {
     void take(std::size_t cloth);
     /// Makes the handles that a cloth made those of the images that it shares.
     void give(std::size_t cloth);
+    void give_field(std::size_t cloth, Field field);
     /// Calls `add` once for cloths together, and for each of the others.
     template <class Add>
     void for_each_dispatch(const Add& add);
     template <class Add>
     void for_each_cloth(const Add& add);
     void add_dispatches(graph::Graph& graph, const Step& step);
+    void add_step_of_bodies(graph::Graph& graph, const Step& step);
     /// `state` is null where contact is of all cloths at once.
     void add_step(graph::Graph& graph, ClothState* state, const Step& step);
 

@@ -5,6 +5,9 @@
 
 namespace drape {
 
+/// What is read back of the state of bodies (ClothSolver::add_body_readback).
+inline constexpr const char* bodies_readback = "body";
+
 /// Name of the host_output buffer that `add_readback` fills for a state (ClothState::name, count): particles x 16
 /// bytes, cloth by cloth.
 std::string readback_name(const std::string& state, std::string_view what);

@@ -99,7 +99,7 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     const graph::Handle result = graph.buffer<glsl::StatisticsRecord>(statistics_readback_name(state.name),
                                                                       state.count(), graph::Lifetime::host_output);
     add_sum(graph, pipelines, state, "statistics sum", records, chunks > 1 ? chunks : partials, result);
-    if (state[Field::impulses].valid())
+    if (model.scene.forces)
         add_image_readback(graph, state.pass_name("impulse readback", "statistics"), state[Field::impulses],
                            impulse_readback_name(state.name));
     if (model.adaptive())

@@ -71,7 +71,7 @@ constexpr ConstantRow constant_rows[] = {
     {"after_impulses", [](Place p) { return p.step.after_impulses ? 1u : 0u; }},
     {"again", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"bends", [](Place p) { return p.step.push<glsl::LinePush>().bend > 0 ? 1u : 0u; }},
-    {"books", [](Place p) { return p.model.scene.forces ? 1u : 0u; }},
+    {"books", [](Place p) { return sums_impulses(p.model.scene) ? 1u : 0u; }},
     {"buffered", [](Place p) { return buffered(p) ? 1u : 0u; }},
     {"carries_tension", [](Place p) { return carries_tension(p) ? 1u : 0u; }},
     {"carries_to_release", [](Place p) { return p.scheme().release_stiffness.x > 0 ? 1u : 0u; }},

@@ -71,9 +71,10 @@ std::optional<std::uint32_t> scene_constant(const SimulationModel& model, std::s
 /// and fro have it in the spare image.
 std::string before_alias(const StepPlace& place, std::string_view name, bool written);
 
-/// Adds the pass of a step. `cloth` is null where contact is of all cloths at once.
+/// Adds the pass of a step. `cloth` is null where contact is of all cloths at once; `bearer`, of a step of bodies, is
+/// the cloth with which their state lies.
 void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth, ContactHandles* contact,
-                   const SceneInputs& inputs, const SimulationModel& model, const Step& step);
+                   SceneInputs& inputs, const SimulationModel& model, const Step& step, ClothState* bearer = nullptr);
 
 /// A document of the table: which resources the shaders of every step read and write, from the modules themselves.
 std::string step_document();

@@ -91,6 +91,10 @@ DispatchSize one_workgroup(const StepPlace& place, const ComputePipeline&) {
     return of_cloths(place, glsl::workgroup_width, 1);
 }
 
+DispatchSize over_bodies(const StepPlace& place, const ComputePipeline&) {
+    return {static_cast<std::uint32_t>(body_count(place.model))};
+}
+
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&) {
     return of_cloths(place, whole(grid_of(place).x), whole(grid_of(place).y));
 }

@@ -14,6 +14,7 @@ std::uint32_t nested_group(const StepPlace& place);
 using vulkan::ComputePipeline;
 DispatchSize one_invocation(const StepPlace& place, const ComputePipeline&);
 DispatchSize one_workgroup(const StepPlace& place, const ComputePipeline&);
+DispatchSize over_bodies(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_strips(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_columns(const StepPlace& place, const ComputePipeline&);       ///< strip_rows(step_rounds) each

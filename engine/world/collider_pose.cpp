@@ -110,7 +110,7 @@ double deformed(const Collider& collider, double from, double to) {
 }
 
 bool rests(const Collider& collider, double from, double to) {
-    if (!rests(collider.path, from, to)) return false;
+    if (collider.mass || !rests(collider.path, from, to)) return false;
     if (!collider.deforms()) return true;
     const Mesh& mesh = std::get<Mesh>(collider.shape);
     return mesh.sequence->count() == 1 || (!mesh.loop && pose_number(mesh, from) == pose_number(mesh, to));

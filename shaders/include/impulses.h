@@ -21,6 +21,21 @@ SHARED ImpulseWords words_sum(ImpulseWords a, ImpulseWords b) {
     return ImpulseWords(low, a.high + b.high + (low < a.low ? 1u : 0u));
 }
 
+SHARED ImpulseWords words_difference(ImpulseWords a, ImpulseWords b) {
+    return words_sum(a, ImpulseWords(~b.low + 1u, ~b.high + (b.low == 0u ? 1u : 0u)));
+}
+
+/// Returns an integer as a number. The halves of words are exact, whatever a device makes of the others.
+SHARED float words_number(ImpulseWords words) {
+    bool negative = (words.high & 0x80000000u) != 0u;
+    ImpulseWords size = words;
+    if (negative) size = words_difference(ImpulseWords(0u, 0u), words);
+    precise float low = float(size.low >> 16u) * 65536.0f + float(size.low & 0xffffu);
+    precise float high = float(size.high >> 16u) * 65536.0f + float(size.high & 0xffffu);
+    precise float number = high * 4294967296.0f + low;
+    return negative ? -number : number;
+}
+
 SHARED ImpulseSum no_impulse() {
     ImpulseWords none = ImpulseWords(0u, 0u);
     return ImpulseSum(none, none, none);

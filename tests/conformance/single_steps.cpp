@@ -285,7 +285,7 @@ void SingleSteps::add_decision(const Single& single, std::size_t cloth, std::vec
 
 void SingleSteps::run_frame(std::uint32_t frame, const Visit& visit) {
     write_inputs(solver_.layout(), *pool_, 0, frame, model_);
-    const FrameInputs inputs = frame_inputs(model_, frame);
+    FrameInputs inputs = frame_inputs(model_, frame);
     for (const auto& single : singles_) {
         if (single->runs()) run(*single);
         for (const Step& step : single->twin) twin_.run_step(step, inputs);

@@ -40,6 +40,8 @@ const std::vector<StepBound>& step_bounds() {
         {decide, 0, fixed, 0, "integers; no scene is near its tolerance"},
         {advance, 8, fixed, 0, "a division and a root"},
         {clear_impulses, 0, fixed, 0, "zeros"},
+        {body_move, -1, fixed, 0, "no scene here has bodies: twin_bodies_test compares them, on lavapipe"},
+        {body_strike, -1, fixed, 0, "as body_move"},
         {momentum, 0, fixed, 0, "products, and sums of integers; no scene has what rounds otherwise"},
         {self_gather, 8, fixed, 0, "copies, and two divisions of the motion that others are measured against"},
         {self_boxes, 8, fixed, 0, "the motion of self_gather"},

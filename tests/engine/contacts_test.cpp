@@ -20,9 +20,10 @@ TEST(Contacts, AParticleTouchesAtTheThicknessThatItsMapGives) {
             cloth.particle_thickness.push_back(thin * 0.2f * static_cast<float>(k));
             places.insert(places.end(), {0, 0.01f * static_cast<float>(k), 0, 1});
         }
-    EXPECT_EQ(touched_colliders(scene, 0, 0, places), (std::vector<std::int16_t>{0, 0, 0, 0, 0, -1, -1, -1, -1, -1}));
+    EXPECT_EQ(touched_colliders(scene.cloths[0], scene.colliders, 0, places),
+              (std::vector<std::int16_t>{0, 0, 0, 0, 0, -1, -1, -1, -1, -1}));
     cloth.particle_thickness.clear();
-    EXPECT_EQ(touched_colliders(scene, 0, 0, places), std::vector<std::int16_t>(10, 0));
+    EXPECT_EQ(touched_colliders(scene.cloths[0], scene.colliders, 0, places), std::vector<std::int16_t>(10, 0));
 }
 
 }  // namespace

@@ -128,8 +128,7 @@ const Malformed key_cases[] = {
       "unknown key \"size\""}},
     {"VelocityOfASphere",
      scene("\"colliders\": {\"spheres\": [{\"velocity\": [0, -1, 0]}]}"),
-     {"2:28: /colliders/spheres/0/velocity: expected \"path\" (key frames: [{\"t\": 0}, {\"t\": 1, \"translate\": [0, "
-      "-1, 0]}]), got the unknown key \"velocity\""}},
+     {"2:40: /colliders/spheres/0/velocity: expected a mass too, got none"}},
     {"MassOfACloth",
      cloth("\"mass\": 1"),
      {"2:1: /cloths/0/mass: expected \"areal_density\" (kg/m^2), got the unknown key \"mass\""}},

@@ -38,7 +38,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.overlap, Overlap::refuse);
     EXPECT_TRUE(scene.forces);
     EXPECT_EQ(scene.solver,
-              (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, true, CollideWhen::substep, true, 0.05}));
+              (SolverSettings{SolverMethod::relax, 11, 3, 0.01, 0.2, 0.03, false, CollideWhen::substep, true, 0.05}));
     EXPECT_EQ(
         scene.camera,
         (Camera{{1, 1.5, 2}, {0.5, 1, 0}, 55, {0, 1, 0}, {{0, {1, 2, 3}, {0, 1, 0}}, {2, {3, 2, 1}, {0, 0, 1}}}}));
@@ -203,7 +203,11 @@ TEST(SceneValues, CollidersOfTheFullScene) {
         collider(Box{{0, 0.5, 0}, {0.3, 0.1, 0.2}}, 0.2, {0, 30, 0}, {2, {}, {1, 1, 1}}, 0.3),
         collider(Ellipsoid{{0, 1, 0}, {0.4, 0.2, 0.1}}, 0.4, {7, 8, 9}, {3, {}, {}}, 0.4),
         collider(Capsule{{0, 1, 0.25}, {1, 2, 3}, {0.2, 0.1}}, 0.7, {1, 8, 9}, {4, {}, {}}, 0.5),
-        {Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}}},
+        {.shape = Capsule{{-0.5, 0, 0}, {0.5, 0, 0}, {0.125, 0.125}},
+         .mass = 40,
+         .inertia = Vec3{3, 1, 3.5},
+         .velocity = {1, 0, -2},
+         .angular_velocity = {0, 0.5, 0}},
         collider(mesh, 0.8, {2, 4, 6}, {5, {}, {}}, 0.6),
         {strict}};
     EXPECT_EQ(scene_of(testing::full_scene).colliders, expected);

@@ -126,7 +126,7 @@ inline void add(Triangles& mesh, const Triangles& other) {
 
 /// Writes an OBJ file into the folder for temporary files and returns its name.
 inline std::string obj_file(const Triangles& mesh, const std::string& name, int digits = 9) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+    const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
     std::ofstream file(path);
     file.precision(digits);
     for (const Vec3& v : mesh.vertices) file << "v " << v[0] << ' ' << v[1] << ' ' << v[2] << '\n';

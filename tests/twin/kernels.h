@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shared/bend_types.h"
+#include "shared/body_types.h"
 #include "shared/closed_loop_types.h"
 #include "shared/collider_types.h"
 #include "shared/form_types.h"
@@ -21,6 +22,8 @@ namespace drape::glsl {
 #include "include/bdf2.h"
 #include "include/bend.h"
 #include "include/bent_line.h"
+#include "include/body_contact.h"
+#include "include/body_strike.h"
 #include "include/collider_edges.h"
 #include "include/colliders.h"
 #include "include/contact_law.h"
@@ -40,6 +43,7 @@ namespace drape::glsl {
 #include "include/pin.h"
 #include "include/residual.h"
 #include "include/rest_bend.h"
+#include "include/rigid_body.h"
 #include "include/rotation.h"
 #include "include/self_apart.h"
 #include "include/self_contact.h"

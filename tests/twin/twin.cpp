@@ -88,7 +88,7 @@ Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model
 std::vector<Step> Twin::steps() const { return kernel_steps(*model_, kernels_); }
 
 void Twin::run_frame(std::uint32_t frame) {
-    const FrameInputs inputs = frame_inputs(*model_, frame);
+    FrameInputs inputs = frame_inputs(*model_, frame);
     for (const Step& step : steps()) run_step(step, inputs);
 }
 
@@ -311,7 +311,9 @@ StepFunction function_of(StepKind kind) {
 
 }  // namespace
 
-void Twin::run_step(const Step& step, const FrameInputs& inputs) {
+void Twin::run_step(const Step& step, FrameInputs& inputs) {
+    if (step.kind == StepKind::body_move) return move_bodies(step, inputs);
+    if (step.kind == StepKind::body_strike) return strike_bodies(step);
     if (step.cloth == between_cloths) return run_contact(step);
     for (std::size_t cloth = 0; cloth < cloths_.size(); ++cloth) {
         if (step.cloth != all_cloths && step.cloth != cloth) continue;

@@ -150,7 +150,9 @@ class Twin {
     /// Displaces every cloth's particles by next to nothing (control/sensitivity.h).
     void disturb();
     /// Takes one step, of one cloth or of all of them.
-    void run_step(const Step& step, const FrameInputs& inputs);
+    /// A step of bodies moves them in the inputs.
+    void run_step(const Step& step, FrameInputs& inputs);
+    void run_step(const Step& step, FrameInputs&& inputs) { run_step(step, inputs); }
     void normals(std::size_t cloth);
     /// Computes the tension at a frame's end, for the statistics of an explicit method.
     void tension(std::size_t cloth);
@@ -165,6 +167,12 @@ class Twin {
   private:
     /// Takes a step of contact, of all cloths at once.
     void run_contact(const Step& step);
+    void move_bodies(const Step& step, FrameInputs& inputs);
+    void strike_bodies(const Step& step);
+    /// Returns the cloth with which the state of the bodies of a cloth's member lies.
+    std::size_t bearer_of(std::size_t cloth) const {
+        return cloth - cloth % (model_->cloths.size() / model_->member_count);
+    }
 
     const SimulationModel* model_;
     Kernels kernels_;

@@ -13,6 +13,7 @@
 
 #include "drape/error.h"
 #include "drape/statistics.h"
+#include "drape/vec3.h"
 
 namespace drape {
 
@@ -65,6 +66,18 @@ struct FrameEffort {
     bool within_limits = true;
 };
 
+/// A body that cloth moves (Collider::mass), at a frame's end.
+struct BodyState {
+    std::size_t collider = 0;                         ///< its number among the scene's, as Simulation::scene() has them
+    Vec3 position{};                                  ///< m: the centre of its shape
+    std::array<double, 4> turn{0, 0, 0, 1};           ///< unit quaternion x y z w: world from the shape's own axes
+    Vec3 velocity{};                                  ///< m/s, of its centre of mass
+    Vec3 angular_velocity{};                          ///< rad/s
+    Vec3 momentum{};                                  ///< kg m/s
+    Vec3 angular_momentum{};                          ///< kg m^2/s, about the origin
+    double kinetic_energy = 0, potential_energy = 0;  ///< J; the latter is 0 at the origin
+};
+
 /// Particles are numbered row * columns + column.
 struct FinishedFrame {
     std::uint32_t frame = 0;                         ///< shows the time frame / fps; 0 is the initial state
@@ -74,6 +87,7 @@ struct FinishedFrame {
     std::vector<std::span<const float>> velocities;  ///< per cloth, when wanted: x y z (m/s) and 0
     std::vector<std::span<const float>> normals;     ///< per cloth, when wanted: unit x y z of the front, and 0
     std::vector<ClothStatistics> statistics;         ///< per cloth, when wanted
+    std::vector<BodyState> bodies;                   ///< of every body that has a mass
     FrameEffort effort;
     std::optional<FrameFailure> failure;  ///< set only where statistics are wanted
     std::vector<StageTime> timings;       ///< empty where the device has no timestamps

@@ -1,0 +1,50 @@
+// Bodies that cloth moves: colliders that have a mass. The device has their state; here is what it starts from, the
+// constants of its passes, and what comes of the state. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "drape/frame.h"
+#include "drape/scene.h"
+#include "shared/body_types.h"
+
+namespace drape {
+
+struct SimulationModel;
+struct ClothModel;
+
+/// A collider with a mass.
+struct Body {
+    std::size_t number;  ///< among the model's colliders
+    Collider collider;   ///< its true shape
+};
+
+/// The bodies of a member (ClothModel::member), and what its passes need of its scene.
+struct MemberBodies {
+    std::vector<Body> bodies;
+    Vec3 gravity{};                              ///< at time 0, m/s^2
+    std::size_t first_list = 0, list_count = 0;  ///< of SimulationModel::kept_colliders
+};
+
+/// Returns those of a scene whose colliders are sorted by kind; `list_count`: lists of kept colliders.
+MemberBodies bodies_of(const SceneDescription& scene, std::size_t list_count);
+
+/// Returns whether a cloth is the one with which the state of its member's bodies lies, and there are any.
+bool has_bodies(const SimulationModel& model, std::size_t cloth);
+/// Returns the number of bodies of a scene or, with several members, of each.
+std::size_t body_count(const SimulationModel& model);
+
+std::vector<glsl::BodyConstants> body_constants(const SimulationModel& model, std::size_t member);
+/// Returns the state at time 0, body by body.
+std::vector<glsl::vec4> bodies_at_start(const SimulationModel& model, std::size_t member);
+
+glsl::BodyMovePush body_move_push(const SimulationModel& model, std::size_t member, std::uint32_t substep);
+glsl::BodyStrikePush body_strike_push(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep);
+
+/// Returns the bodies of a scene at a frame's end from the device's state.
+std::vector<BodyState> body_states(const SimulationModel& model, std::span<const float> state, std::uint32_t frame);
+
+}  // namespace drape

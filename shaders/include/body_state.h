@@ -1,0 +1,17 @@
+// Loads and stores the state of a body. The includer has the image `bodies`.
+RigidBody body_at(int number) {
+    return RigidBody(imageLoad(bodies, ivec2(body_position, number)).xyz,
+                     imageLoad(bodies, ivec2(body_remainder, number)).xyz,
+                     imageLoad(bodies, ivec2(body_turn, number)), imageLoad(bodies, ivec2(body_velocity, number)).xyz,
+                     imageLoad(bodies, ivec2(body_slower, number)).xyz,
+                     imageLoad(bodies, ivec2(body_spin, number)).xyz);
+}
+
+void store_body(int number, RigidBody body) {
+    imageStore(bodies, ivec2(body_position, number), vec4(body.position, 0.0f));
+    imageStore(bodies, ivec2(body_remainder, number), vec4(body.remainder, 0.0f));
+    imageStore(bodies, ivec2(body_turn, number), body.turn);
+    imageStore(bodies, ivec2(body_velocity, number), vec4(body.velocity, 0.0f));
+    imageStore(bodies, ivec2(body_slower, number), vec4(body.slower, 0.0f));
+    imageStore(bodies, ivec2(body_spin, number), vec4(body.spin, 0.0f));
+}

@@ -1,0 +1,60 @@
+// Bodies that cloth moves, on the device, equal the twin's bit for bit (lavapipe).
+#include <gtest/gtest.h>
+
+#include "twin_comparison.h"
+
+namespace drape {
+namespace {
+
+using test::compare;
+
+class TwinBodiesTest : public testing::TestWithParam<SolverMethod> {};
+
+/// Everything at once, and some colliders of each kind that may have one have a mass.
+SceneDescription with_bodies(SolverMethod method) {
+    SceneDescription scene = test::everything();
+    scene.solver.method = method;
+    for (const std::size_t k : {0u, 2u, 3u, 5u}) {
+        Collider& body = scene.colliders[k];
+        body.path = {};
+        body.mass = 0.4 + 0.1 * static_cast<double>(k);
+        body.velocity = {0.1, 0.2, 0.3};
+        body.angular_velocity = {1, -2, 0.5};
+    }
+    scene.colliders[2].inertia = {0.004, 0.005, 0.006};
+    return scene;
+}
+
+TEST_P(TwinBodiesTest, EverythingAtOnce) { compare(with_bodies(GetParam())); }
+
+TEST_P(TwinBodiesTest, TwoClothsInGravityThatChanges) {
+    SceneDescription scene = with_bodies(GetParam());
+    scene.gravity_keys = {{0.02, {0, -9.81, 0}}, {0.25, {-4, 3, 0}}};
+    scene.forces = true;
+    test::add_second_cloth(scene);
+    compare(scene);
+}
+
+TEST_P(TwinBodiesTest, BesideContactBetweenLayers) {
+    SceneDescription scene = with_bodies(GetParam());
+    scene.cloths[0].grid = {13, 11};
+    scene.cloths[0].pins = {test::pin_box(0, 0, 2, 0)};
+    scene.cloths[0].self_collision.emplace();
+    compare(scene);
+}
+
+/// Cloths that are simulated together lie in one image, and the bodies with the first.
+TEST_P(TwinBodiesTest, ClothsTogether) {
+    SceneDescription scene = with_bodies(GetParam());
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "other";
+    scene.cloths[1].placement.origin[1] += 0.1;
+    compare(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, TwinBodiesTest,
+                         testing::Values(SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps),
+                         [](const auto& method) { return std::string(named(method.param).name); });
+
+}  // namespace
+}  // namespace drape
