@@ -13,6 +13,7 @@
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/rotation_types.h"
+#include "shared/seam_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
 
@@ -42,6 +43,8 @@ enum class StepKind {
     torque,
     rotate,
     tether,
+    seam_give,
+    seam_take,
     collider_edges,
     collide,
     residual,
@@ -75,7 +78,7 @@ using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
-                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush>;
+                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush, glsl::SeamPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

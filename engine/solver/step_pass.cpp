@@ -87,7 +87,7 @@ std::string alias_of(const StepRow& row, const StepPlace& place, Turn turned, st
 }  // namespace
 
 void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth, ContactHandles* contact,
-                   const SceneInputs& inputs, const SimulationModel& model, const Step& step) {
+                   SceneInputs& inputs, const SimulationModel& model, const Step& step) {
     const StepRow& row = step_rows()[static_cast<std::size_t>(step.kind)];
     const auto kernel = std::ranges::find(row.kernels, step.kernel, &KernelRow::kernel);
     if (kernel == row.kernels.end()) throw std::logic_error("a step has a kernel that its row has not");
@@ -98,7 +98,7 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const auto value = [&](std::string_view name) { return step_constant(place, name); };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     const Turn turned = row.turn ? row.turn(place) : Turn::nothing;
-    PassResources resources{cloth, contact, inputs, {{"constants", &own}}};
+    PassResources resources{cloth, contact, inputs, {{"constants", &own}, {"sewn_places", &inputs.sewn_places}}};
     resources.alias = [&](std::string_view name, bool written) { return alias_of(row, place, turned, name, written); };
     add_compute_pass(graph, name_of(row, place), pipeline, push_of(row, place), size_of(*kernel, place, pipeline),
                      std::move(resources));

@@ -73,7 +73,7 @@ std::string before_alias(const StepPlace& place, std::string_view name, bool wri
 
 /// Adds the pass of a step. `cloth` is null where contact is of all cloths at once.
 void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth, ContactHandles* contact,
-                   const SceneInputs& inputs, const SimulationModel& model, const Step& step);
+                   SceneInputs& inputs, const SimulationModel& model, const Step& step);
 
 /// A document of the table: which resources the shaders of every step read and write, from the modules themselves.
 std::string step_document();

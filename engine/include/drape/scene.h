@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "drape/seam.h"
 #include "drape/solid.h"
 #include "drape/solver_method.h"
 #include "drape/vec3.h"
@@ -23,20 +24,6 @@ namespace drape {
 
 class MeshSequence;
 class MeshShape;
-
-/// A value of an enumeration and its word in the scene file.
-template <class T>
-struct Spelling {
-    std::string_view name;
-    T value;
-};
-
-template <class T, std::size_t count>
-constexpr std::string_view spelling(const Spelling<T> (&spellings)[count], T value) {
-    for (const Spelling<T>& candidate : spellings)
-        if (candidate.value == value) return candidate.name;
-    return {};
-}
 
 /// The axis that points up in a scene's world. Coordinates are the scene's own everywhere (world/up.h). The reader
 /// turns defaults that have a direction with it; these structures have those of a world with y up.
@@ -467,6 +454,7 @@ struct SceneDescription {
     std::vector<VectorKey> gravity_keys;  ///< m/s^2, strictly increasing in time; empty: gravity is constant
     Wind wind;
     std::vector<Cloth> cloths;
+    std::vector<Seam> seams;
     std::vector<Collider> colliders;
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
