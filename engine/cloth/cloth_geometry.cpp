@@ -38,6 +38,7 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     if (grid.columns() < 3) stiffness_constant.bend[0] = 0;
     if (grid.rows() < 3) stiffness_constant.bend[1] = 0;
     place(cloth);
+    sew(sewn_particles(scene, cloth));
     if (cloth.rest == Rest::start || !cloth.panel.empty())
         for (const std::array<double, 4>& ratio : rest_ratios(cloth))
             rest_scales.push_back({static_cast<float>(ratio[0]), static_cast<float>(ratio[1]),
@@ -45,6 +46,8 @@ ClothGeometry::ClothGeometry(const SceneDescription& scene, const Cloth& cloth, 
     for (const std::array<double, 2>& at : cloth.panel)
         panel.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), 0, 0});
     hold_pins(cloth.pins);
+    for (const Sewn& each : sewn)
+        if (each.held) position[each.particle].w = 0;
     has_release = has_release || (actions.holds && has_motion);
     add_hands(actions.hands);
     if (bend == 0) skipped.push_back({name + "/bending", "zero rigidity"});
@@ -114,6 +117,20 @@ void ClothGeometry::place(const Cloth& cloth) {
     if (!starts_masked)
         skipped.push_back({name + "/spring shares",
                            "no holes, maps, cuts or stiffness keys: the grid's extent gives every stiffness"});
+}
+
+void ClothGeometry::sew(std::vector<Sewn> particles) {
+    sewn = std::move(particles);
+    const auto differs = [this](const Sewn& each) {
+        return each.velocity != (velocities.empty() ? velocity : velocities[each.particle]);
+    };
+    if (std::ranges::any_of(sewn, differs)) velocities.resize(position.size(), velocity);
+    for (const Sewn& each : sewn) {
+        free_weight[each.particle] = each.sewn.weights.y;
+        position[each.particle] = texel(each.start, free_weight[each.particle]);
+        if (!velocities.empty()) velocities[each.particle] = each.velocity;
+        start_speed = std::max(start_speed, length(each.velocity));
+    }
 }
 
 void ClothGeometry::set_tethers(const SceneDescription& scene, const Cloth& cloth) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloth/grid.h"
+#include "cloth/sewing.h"
 #include "cloth/stiffness_constants.h"
 #include "cloth/tethers.h"
 #include "drape/compromise.h"
@@ -84,6 +85,8 @@ struct ClothGeometry {
     /// The load at which the springs along row and column tear (cloth/tear.h); empty: they never tear.
     std::vector<glsl::vec4> tear_limits;
 
+    std::vector<Sewn> sewn;  ///< its particles at seams
+
     std::uint32_t load_depth = 0;   ///< the largest number of loads on a particle
     std::vector<glsl::vec4> loads;  ///< load_texels (cloth/loads.h)
 
@@ -109,6 +112,7 @@ struct ClothGeometry {
 
   private:
     void place(const Cloth& cloth);
+    void sew(std::vector<Sewn> particles);
     void hold_pins(const std::vector<Pin>& pins);
     void add_hands(const std::vector<std::size_t>& hands);
     void set_tethers(const SceneDescription& scene, const Cloth& cloth);

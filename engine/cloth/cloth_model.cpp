@@ -26,7 +26,7 @@ ClothActions actions_on(std::size_t cloth, const ModelOptions& options) {
 /// Whoever may let go, take or turn gravity leaves nothing that is known of how the cloth turns.
 std::optional<KeptTurn> turn_of(const SceneDescription& scene, const ClothGeometry& cloth,
                                 const ModelOptions& options) {
-    const bool known = !options.holds && !options.weight && options.hands.empty();
+    const bool known = cloth.sewn.empty() && !options.holds && !options.weight && options.hands.empty();
     return known ? kept_turn(scene, cloth) : std::nullopt;
 }
 
@@ -38,13 +38,17 @@ void kick(const Cloth& cloth, const MethodSettings& settings, ClothModel& model)
     for (const glsl::vec4& place : model.position) at.push_back({double{place.x}, double{place.y}, double{place.z}});
     const std::vector<Vec3> force = load_forces(cloth, model.grid, at, 0);
     model.scheme.starts.resize(force.size(), model.scheme.start);
-    for (std::size_t k = 0; k < force.size(); ++k) {
+    const auto kick_of = [&](std::size_t particle) {
         MethodSettings pulled = settings;
-        pulled.gravity = times(double{model.free_weight[k]} / model.inner_mass, force[k]);
-        const glsl::vec4 more = verlet_start(model, pulled, {});
+        pulled.gravity = times(double{model.free_weight[particle]} / model.inner_mass, force[particle]);
+        return verlet_start(model, pulled, {});
+    };
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        const glsl::vec4 more = kick_of(k);
         glsl::vec4& start = model.scheme.starts[k];
         start = {start.x + more.x, start.y + more.y, start.z + more.z, start.w};
     }
+    for (Sewn& each : model.sewn) each.kick = kick_of(each.particle);
 }
 
 MethodSettings settings_of(const SceneDescription& scene, double substep_length, const std::optional<KeptTurn>& turn,

@@ -91,6 +91,11 @@ bool cut_by_edges(Context c) { return c.cloth.edge_reach > 0; }
 std::vector<std::byte> cell_bits(Context c) { return bytes_of_list(c.topology.grid().cells()); }
 std::vector<std::byte> reference(Context c) { return bytes_of_list(std::vector{statistics_reference(c.cloth)}); }
 
+std::vector<std::byte> sewn_list(Context c) {
+    std::vector<glsl::SewnParticle> list;
+    for (const Sewn& each : c.cloth.sewn) list.push_back(each.sewn);
+    return bytes_of_list(list);
+}
 std::size_t draw_list_room(Context c, std::size_t count) {
     return c.model.scene.comes_apart() ? draw_list_capacity(count) : count;
 }
@@ -204,6 +209,9 @@ std::vector<FieldRow> other_rows() {
          pinned_list, [](Context c) { return bytes_of_list(c.cloth.pinned); }},
         {Field::pin_motions, "pin motions", buffer, layout_of<glsl::PinMotion>(), input, pinned,
          [](Context c) { return FieldExtent{c.cloth.dynamic_pins.size() * c.model.most_substeps()}; }},
+        {Field::sewn_particles, "sewn particles", buffer, layout_of<glsl::SewnParticle>(), constant,
+         [](Context c) { return !c.cloth.sewn.empty(); }, [](Context c) { return FieldExtent{c.cloth.sewn.size()}; },
+         sewn_list},
     };
 }
 

@@ -76,8 +76,9 @@ enum class Field : std::uint8_t {
     skin,              ///< ClothGeometry::skin, of cloth that meets colliders
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< motion of every such pin in every substep
+    sewn_particles,    ///< ClothGeometry::sewn
 };
-inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::pin_motions) + 1;
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::sewn_particles) + 1;
 
 /// What a frame does beside simulating, since some fields exist for it alone.
 struct FrameNeeds {

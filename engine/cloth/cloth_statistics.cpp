@@ -74,7 +74,13 @@ glsl::vec4 statistics_reference(const ClothModel& cloth) {
 std::vector<float> mass_shares(const ClothModel& cloth) {
     std::vector<float> shares;
     shares.reserve(cloth.free_weight.size());
-    for (const float weight : cloth.free_weight) shares.push_back(weight > 0 ? 1.0f / weight : 0.0f);
+    for (std::size_t i = 0; i < cloth.free_weight.size(); ++i) {
+        const auto place = static_cast<std::uint32_t>(i), columns = cloth.grid.columns();
+        // The weight of a sewn particle is that of all that are sewn there.
+        const float weight = cloth.sewn.empty() ? cloth.free_weight[i]
+                                                : cloth.grid.relative_inverse_mass(place % columns, place / columns);
+        shares.push_back(weight > 0 ? 1.0f / weight : 0.0f);
+    }
     return shares;
 }
 

@@ -1,5 +1,6 @@
 #include "cloth/frame_steps.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "cloth/cloth_state.h"
@@ -17,14 +18,59 @@ class Substep {
         : model_(model), cloth_(model.cloths[cloth]), index_(cloth), substep_(substep), steps_(steps) {}
 
     void add() {
+        release();
+        wind();
+        predict();
+        once();
+        for (std::uint32_t iteration = 0; iteration < iteration_count(); ++iteration) {
+            solve(iteration);
+            touch(iteration);
+            check(iteration);
+        }
+        add_tethers();
+    }
+
+    // The parts of a substep, in their order.
+    void release() {
         if (cloth_.has_release) add(StepKind::release);
+    }
+    void wind() {
         if (model_.windy) add(StepKind::wind);
+    }
+    void predict() {
         add(cloth_.scheme.prediction);
         if (cloth_.has_motion) add(StepKind::pin);
-        // Bending is relaxed once per substep: it has no multiplier, so a second pass would make the cloth stiffer.
-        add(cloth_.scheme.once);
-        add_iterations();
-        add_tethers();
+    }
+    /// Bending is relaxed once per substep: it has no multiplier, so a second pass would make the cloth stiffer.
+    void once() { add(cloth_.scheme.once); }
+    std::uint32_t iteration_count() const { return model_.method().iterates() ? model_.scene.solver.iterations : 1; }
+    void solve(std::uint32_t iteration) {
+        for (const MethodStep& step : cloth_.scheme.iterated)
+            steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
+                              is_last(iteration) && ends_frame(), 1, is_conditional(iteration)});
+        if (is_last(iteration)) add(cloth_.scheme.ended);
+    }
+    bool touches(std::uint32_t iteration) const {
+        const SolverSettings& solver = model_.scene.solver;
+        return !model_.scene.colliders.empty() && (solver.collide == CollideWhen::iteration || is_last(iteration));
+    }
+    void touch(std::uint32_t iteration) {
+        if (touches(iteration))
+            collide(iteration, is_last(iteration) && !collides_again()).conditional =
+                is_conditional(iteration) && model_.scene.solver.collide == CollideWhen::iteration;
+    }
+    void check(std::uint32_t iteration) {
+        if (model_.adaptive() && !is_last(iteration))
+            for (const StepKind kind : {StepKind::residual, StepKind::decide})
+                add(kind, iteration).conditional = is_conditional(iteration);
+    }
+    bool has_tethers() const {
+        return !cloth_.tethers.empty() || (!model_.scene.colliders.empty() && collides_again());
+    }
+    /// Ends a substep: adds tethers, and once more the contacts into which they may have pulled particles.
+    void add_tethers() {
+        if (!cloth_.tethers.empty()) add(StepKind::tether);
+        if (!model_.scene.colliders.empty() && collides_again()) collide(model_.scene.solver.iterations, true);
     }
 
   private:
@@ -35,31 +81,12 @@ class Substep {
         for (const MethodStep& step : planned) {
             Step& added = add(step.kind);
             added.constants = step.constants;
-            added.last = substep_ + 1 == model_.scene.solver.substeps;
+            added.last = ends_frame();
         }
     }
-    void add_iterations() {
-        const SolverSettings& solver = model_.scene.solver;
-        const std::uint32_t count = model_.method().iterates() ? solver.iterations : 1;
-        for (std::uint32_t iteration = 0; iteration < count; ++iteration) {
-            const bool last = iteration + 1 == count, conditional = model_.adaptive() && iteration > 0;
-            for (const MethodStep& step : cloth_.scheme.iterated)
-                steps_.push_back({step.kind, index_, substep_, iteration, step.constants,
-                                  last && substep_ + 1 == solver.substeps, 1, conditional});
-            const bool per_iteration = solver.collide == CollideWhen::iteration && !model_.scene.colliders.empty();
-            if (last) add(cloth_.scheme.ended);
-            if (!model_.scene.colliders.empty() && (per_iteration || last))
-                collide(iteration, last && !collides_again()).conditional = conditional && per_iteration;
-            if (model_.adaptive() && !last)
-                for (const StepKind kind : {StepKind::residual, StepKind::decide})
-                    add(kind, iteration).conditional = conditional;
-        }
-    }
-    /// Ends a substep: adds tethers, and once more the contacts into which they may have pulled particles.
-    void add_tethers() {
-        if (!cloth_.tethers.empty()) add(StepKind::tether);
-        if (!model_.scene.colliders.empty() && collides_again()) collide(model_.scene.solver.iterations, true);
-    }
+    bool ends_frame() const { return substep_ + 1 == model_.scene.solver.substeps; }
+    bool is_last(std::uint32_t iteration) const { return iteration + 1 == iteration_count(); }
+    bool is_conditional(std::uint32_t iteration) const { return model_.adaptive() && iteration > 0; }
     /// Returns whether contact comes once more after the iterations: after tethers, or where the device may skip the
     /// last iteration, in which the edges of boxes would be handled.
     bool collides_again() const { return !cloth_.tethers.empty() || (cloth_.edge_reach > 0 && model_.adaptive()); }
@@ -84,6 +111,85 @@ class Substep {
     std::uint32_t substep_;
     std::vector<Step>& steps_;
     bool collided_ = false;
+};
+
+/// Adds a substep of cloths that are sewn: they take turns, and what one does to a seam the others get before theirs.
+class SewnSubstep {
+  public:
+    SewnSubstep(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
+        : model_(model), substep_(substep), steps_(steps) {
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            parts_.emplace_back(model, cloth, substep, steps);
+        taken_.resize(parts_.size());
+    }
+
+    void add() {
+        for (Substep& part : parts_) part.release();
+        if (std::ranges::any_of(model_.cloths, &ClothModel::has_release)) hand_on(glsl::seam_released);
+        for (Substep& part : parts_) part.wind();
+        if (model_.windy && model_.method().iterates()) hand_on(glsl::seam_forces);
+        for (Substep& part : parts_) part.predict();
+        hand_on(glsl::seam_predicted);
+        for (std::uint32_t iteration = 0; iteration < parts_.front().iteration_count(); ++iteration)
+            for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) iterate(cloth, iteration);
+        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth)
+            if (parts_[cloth].has_tethers()) {
+                take(cloth);
+                parts_[cloth].add_tethers();
+                give(cloth, glsl::seam_touched);
+            }
+        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) take(cloth);
+    }
+
+  private:
+    void add(StepKind kind, std::size_t cloth, int stage) {
+        const auto count = static_cast<int>(model_.cloths[cloth].sewn.size());
+        if (count > 0) steps_.push_back({kind, cloth, substep_, 0, glsl::SeamPush{count, stage, 0, 0}});
+    }
+    void hand_on(int stage) {
+        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_give, cloth, stage);
+        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_take, cloth, stage);
+    }
+    /// Returns whether no two of a cloth's own particles are sewn to each other, so that it has what it gives.
+    bool is_alone(std::size_t cloth) const {
+        return std::ranges::all_of(model_.cloths[cloth].sewn, [](const Sewn& each) { return each.sewn.at.w == 1; });
+    }
+    void give(std::size_t cloth, int stage) {
+        if (model_.cloths[cloth].sewn.empty()) return;
+        add(StepKind::seam_give, cloth, stage);
+        ++given_;
+        if (is_alone(cloth)) taken_[cloth] = given_;
+    }
+    /// Gives a cloth what others have given since it last took or gave.
+    void take(std::size_t cloth) {
+        if (taken_[cloth] == given_) return;
+        add(StepKind::seam_take, cloth, glsl::seam_touched);
+        taken_[cloth] = given_;
+    }
+    void iterate(std::size_t cloth, std::uint32_t iteration) {
+        Substep& part = parts_[cloth];
+        const MethodScheme& scheme = model_.cloths[cloth].scheme;
+        const bool touches = part.touches(iteration);
+        if (!scheme.iterated.empty() || !scheme.once.empty()) {
+            take(cloth);
+            if (iteration == 0) part.once();
+            part.solve(iteration);
+            if (!touches || !is_alone(cloth)) give(cloth, glsl::seam_solved);
+        }
+        if (touches) {
+            take(cloth);
+            part.touch(iteration);
+            give(cloth, glsl::seam_touched);
+        }
+        part.check(iteration);
+    }
+
+    const SimulationModel& model_;
+    std::uint32_t substep_;
+    std::vector<Step>& steps_;
+    std::vector<Substep> parts_;
+    std::size_t given_ = 0;           ///< how often a cloth has handed on what springs or contact did
+    std::vector<std::size_t> taken_;  ///< by cloth: what of it the cloth has
 };
 
 /// Adds the steps of contact between cloths at the end of a substep, so that nothing moves a particle after its motion
@@ -205,12 +311,25 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
         add_motion_of_bodies(model, substep, steps);
-        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) Substep(model, cloth, substep, steps).add();
+        if (model.sewn_count > 0)
+            SewnSubstep(model, substep, steps).add();
+        else
+            for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+                Substep(model, cloth, substep, steps).add();
         if (model.self_contact) ContactSteps(model, substep, steps).add();
         add_strikes(model, substep, steps);
     }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
     add_momenta(model, 1, steps);
+    return steps;
+}
+
+std::vector<Step> normal_steps(const SimulationModel& model) {
+    std::vector<Step> steps;
+    for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            if (const auto count = static_cast<int>(model.cloths[cloth].sewn.size()); count > 0)
+                steps.push_back({kind, cloth, 0, 0, glsl::SeamPush{count, glsl::seam_normals, 0, 0}});
     return steps;
 }
 

@@ -158,6 +158,8 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
          {differ("/time/fps", first.time.fps, other.time.fps), differ("/forces", first.forces, other.forces),
           differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
           differ("/wind", blows(first), blows(other)), differ("/gravity_keys", weight(first), weight(other)),
+          differ("/seams", fmt::format("a list of {}", first.seams.size()),
+                 fmt::format("a list of {}", other.seams.size())),
           differ("/cutters", fmt::format("a list of {}", first.cutters.size()),
                  fmt::format("a list of {}", other.cutters.size()))})
         if (found) return found;
@@ -165,6 +167,7 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
 }
 
 std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
+    if (model.sewn_count > 0) return "sewn cloths take turns";
     if (model.closed_loop() && model.self_contact)
         return "method auto does a frame again where lists of contact are too short, in each member by itself";
     if (model.has_companions() && !model.closed_loop()) return "companion runs estimate the error of each member";

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "base/vectors.h"
 #include "cloth/rungs.h"
+#include "cloth/texels.h"
 #include "shared/collider_types.h"
 #include "world/contact_shape.h"
 #include "world/weather.h"
@@ -62,11 +65,13 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
             model.name = fmt::format("{}/{}", member, model.name);
             model.member = member;
             model.collider_list += kept_colliders.size();
+            for (Sewn& each : model.sewn) each.sewn.at.z += static_cast<int>(sewn_count);
             scene.cloths.push_back(one.scene.cloths[cloth]);
             scene.cloths.back().name = model.name;
         }
         bodies.push_back(one.bodies.front());
         bodies.back().first_list = kept_colliders.size();
+        sewn_count += one.sewn_count;
         kept_colliders.insert(kept_colliders.end(), one.kept_colliders.begin(), one.kept_colliders.end());
         colliders_move = colliders_move || one.colliders_move;
     }
@@ -105,7 +110,35 @@ void SimulationModel::add_colliders() {
 
 void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+    for (const ClothModel& cloth : cloths)
+        for (const Sewn& each : cloth.sewn)
+            sewn_count = std::max(sewn_count, static_cast<std::size_t>(each.sewn.at.z) + 1);
+    if (sewn_count > 0 && (options.holds || options.weight || !options.hands.empty()))
+        throw std::invalid_argument(
+            "expected no seams where actions let pins go, take particles or turn gravity: they do not follow these "
+            "yet");
+    share_kicks();
     if (cloths_meet(scene)) self_contact.emplace(scene, cloths, crossed);
+}
+
+/// What the loads of one cloth give to a sewn particle moves all that are sewn there.
+void SimulationModel::share_kicks() {
+    const auto is_loaded = [](const Cloth& cloth) { return !cloth.loads.empty(); };
+    if (sewn_count == 0 || std::ranges::none_of(scene.cloths, is_loaded)) return;
+    std::vector<Vec3> kicks(sewn_count);
+    const auto vector = [](const glsl::vec4& v) { return Vec3{double{v.x}, double{v.y}, double{v.z}}; };
+    for (const ClothModel& cloth : cloths)
+        for (const Sewn& each : cloth.sewn) {
+            Vec3& sum = kicks[static_cast<std::size_t>(each.sewn.at.z)];
+            sum = plus(sum, times(each.part, vector(each.kick)));
+        }
+    for (ClothModel& cloth : cloths)
+        for (const Sewn& each : cloth.sewn) {
+            cloth.scheme.starts.resize(cloth.position.size(), cloth.scheme.start);
+            glsl::vec4& start = cloth.scheme.starts[each.particle];
+            const Vec3 more = minus(kicks[static_cast<std::size_t>(each.sewn.at.z)], vector(each.kick));
+            start = texel(plus(vector(start), more), double{start.w});
+        }
 }
 
 SimulationModel::StretchLimits SimulationModel::stretch_limits() const {

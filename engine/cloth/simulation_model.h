@@ -45,6 +45,7 @@ struct SimulationModel {
     bool weighs;  ///< the wind pass also adds the change of gravity since the start
     bool colliders_move = false;   ///< some collider is key-framed, so each substep has records of its own
     std::size_t member_count = 1;  ///< the number of scenes that the cloths belong to (ClothModel::member)
+    std::size_t sewn_count = 0;    ///< the number of places at which cloths are sewn (ClothModel::sewn)
     /// Returns the rounds over all colliders in a collision step; a single collider needs one, since it overlaps no
     /// other.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }
@@ -81,6 +82,7 @@ struct SimulationModel {
     bool ends_iterations() const;
     bool iterates_cheaply() const;
     void add_cloths(const std::vector<StartCrossing>& crossed);
+    void share_kicks();
     void add_colliders();
 };
 

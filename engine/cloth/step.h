@@ -14,6 +14,7 @@
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
 #include "shared/rotation_types.h"
+#include "shared/seam_types.h"
 #include "shared/self_contact_types.h"
 #include "shared/simulation_types.h"
 
@@ -43,6 +44,8 @@ enum class StepKind {
     torque,
     rotate,
     tether,
+    seam_give,
+    seam_take,
     collider_edges,
     collide,
     residual,
@@ -79,7 +82,7 @@ using StepConstants =
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
                  glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush, glsl::BodyMovePush,
-                 glsl::BodyStrikePush>;
+                 glsl::BodyStrikePush, glsl::SeamPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

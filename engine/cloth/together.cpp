@@ -354,7 +354,7 @@ std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene
     std::vector<std::vector<std::size_t>> lists;
     const SolverSettings& solver = scene.solver;
     const bool own_iterations = solver.tolerance > 0 && solver.iterations > 1 && named(solver.method).iterates();
-    if (scene.comes_apart() || own_iterations) return lists;
+    if (scene.comes_apart() || own_iterations || !scene.seams.empty()) return lists;
     for (std::size_t k = 0; k < scene.cloths.size(); ++k) {
         const Cloth& cloth = scene.cloths[k];
         if (std::uint64_t{cloth.grid[0]} * cloth.grid[1] > most_particles) continue;

@@ -11,9 +11,9 @@
 
 namespace drape {
 
-/// Returns lists of two or more cloths, ascending, that have the same grid and holes. The result is empty where cutters
-/// may make cloths differ, or where each cloth has its own number of iterations. Cloths large enough to fill a device
-/// alone are in no list.
+/// Returns lists of two or more cloths, ascending, that have the same grid and holes. The result is empty where seams
+/// have cloths take turns, where cutters may make cloths differ, or where each cloth has its own number of iterations.
+/// Cloths large enough to fill a device alone are in no list.
 std::vector<std::vector<std::size_t>> cloths_alike(const SceneDescription& scene);
 
 /// Splits those lists so that the cloths of each take the same steps with the same fields: for instance, all of them or

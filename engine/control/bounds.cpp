@@ -67,7 +67,8 @@ std::size_t who_gained_most(const Seen& s) {
     return most;
 }
 
-bool meets(const Seen& s) { return s.causes.model().self_contact.has_value(); }
+/// Returns whether cloths may give each other energy, by contact or at seams.
+bool meets(const Seen& s) { return s.causes.model().self_contact || s.causes.model().sewn_count > 0; }
 
 /// Cloths that meet exchange energy, so only their total is bounded.
 Causes::Energy energy_of(const Seen& s) {
@@ -182,7 +183,8 @@ constexpr ClothBound energy_row(const char* sentence, double (*value)(const Seen
     return {
         .words = {"energy gained, J", sentence, steadier,
                   "where nothing but keys of its stiffness does work on the cloth: a tenth of m v0^2/2 + m g d, and "
-                  "what the strain that it starts with and such keys give back; of cloths that meet, all together"},
+                  "what the strain that it starts with and such keys give back; of cloths that meet or are sewn, all "
+                  "together"},
         .beyond = Beyond::again,
         .value = value,
         .bound = energy_bound,
@@ -194,7 +196,8 @@ constexpr ClothBound cloth_rows[] = {
     {.words = {"speed, m/s", "moves at {value:.3g} m/s, where at most {bound:.3g} m/s are explained", steadier,
                "ten times (tips whip) the sum of what may move it, and 0.1 m/s: its speed at the start, g t (of held "
                "cloth at most 2 sqrt(g d) with its diagonal d), the wind, pins, twice the colliders and the cloths "
-               "that it meets, and the speed at which strain by pins, colliders, the start or softer keys comes back"},
+               "that it meets or is sewn to, and the speed at which strain by pins, colliders, the start or softer "
+               "keys comes back"},
      .beyond = Beyond::again,
      .place = &Statistics::fastest,
      .value = [](const Seen& s) { return s.now().largest_speed; },
@@ -258,7 +261,7 @@ constexpr ClothBound cloth_rows[] = {
         "the cloth has gained {value:.3g} J, where at most {bound:.3g} J are explained",
         [](const Seen& s) { return meets(s) && s.all.size() == 1 ? energy_gained(s) : 0; }, who_gained_most),
     energy_row(
-        "it and the cloths that it meets have gained {value:.3g} J, where {bound:.3g} J are explained",
+        "it and the cloths that it meets or is sewn to have gained {value:.3g} J, where {bound:.3g} J are explained",
         [](const Seen& s) { return meets(s) && s.all.size() > 1 ? energy_gained(s) : 0; }, who_gained_most),
     {.words = {"stretch error of a spring for six frames",
                "begins the worst of springs whose stretch error is {value:.3g} or more of their length for six frames "

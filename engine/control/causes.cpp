@@ -213,7 +213,7 @@ double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
 
 Causes::Reach Causes::reach(std::uint32_t frame, std::size_t index) const {
     Reach reach{own_speed(frame, index), drive(frame, index).travel};
-    if (!model_.self_contact) return reach;
+    if (!model_.self_contact && model_.sewn_count == 0) return reach;
     double speed = 0, travel = 0;
     for (std::size_t other = 0; other < starts_.size(); ++other) {
         if (other == index) continue;

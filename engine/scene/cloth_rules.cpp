@@ -154,11 +154,21 @@ bool start_boxes_meet(const Cloth& a, const Cloth& b) {
     return true;
 }
 
+bool are_sewn(const SceneDescription& scene, const Cloth& one, const Cloth& other) {
+    return std::ranges::any_of(scene.seams, [&](const Seam& seam) {
+        return (seam.a.cloth == one.name && seam.b.cloth == other.name) ||
+               (seam.a.cloth == other.name && seam.b.cloth == one.name);
+    });
+}
+
 // Warns once per cloth, naming the first of the earlier ones that it meets.
-void warn_of_touching(const SceneNode& node, const std::vector<Cloth>& cloths) {
+void warn_of_touching(const SceneNode& node, const SceneDescription& scene) {
+    const std::vector<Cloth>& cloths = scene.cloths;
     for (std::size_t i = 1; i < cloths.size(); ++i) {
-        const auto other = std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i),
-                                        [&](const Cloth& earlier) { return start_boxes_meet(earlier, cloths[i]); });
+        const auto meets = [&](const Cloth& earlier) {
+            return start_boxes_meet(earlier, cloths[i]) && !are_sewn(scene, earlier, cloths[i]);
+        };
+        const auto other = std::find_if(cloths.begin(), cloths.begin() + static_cast<std::ptrdiff_t>(i), meets);
         if (other - cloths.begin() == static_cast<std::ptrdiff_t>(i)) continue;
         node.element(i).warn(
             fmt::format("cloths \"{}\" and \"{}\" are set to touch, but will pass through each other: "
@@ -399,7 +409,8 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     }
     if (members["gravity"] && members["gravity_keys"])
         members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
-    if (!cloths_meet(scene)) warn_of_touching(node, cloths);
+    if (!cloths_meet(scene)) warn_of_touching(node, scene);
+    if (members.fit({"cloths", "seams", "colliders", "gravity_keys", "forces"})) check_seams(members["seams"], scene);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "solver"})) check_bodies(members, scene);

@@ -275,6 +275,26 @@ const Object<Cloth> cloth{
     },
     check_cloth};
 
+const Object<SeamSide> seam_side{
+    "seam_side",
+    "A border of a cloth.",
+    {
+        {"cloth", &SeamSide::cloth, text(), "Name of the cloth.", "the name of a cloth"},
+        {"edge", &SeamSide::edge, choice<SeamEdge>(seam_edge_spellings),
+         "All particles of a border: left is column 0, top is row 0.", "an edge: left, right, top or bottom"},
+    }};
+
+const Object<Seam> seam{
+    "seam",
+    "Two borders that are one from the start on, of two cloths or of one, which then is a tube. They have as many "
+    "particles, which start in pairs within a thousandth of a cell of each other, in the order of both borders or "
+    "against one. Each pair is one particle with the mass of both; where a pin holds one of them, it holds both. "
+    "Several seams may meet at a place. Sewn cloth turns about a seam freely: it bends within its cloths only.",
+    {
+        {"a", &Seam::a, seam_side, "One side.", "a side of a seam"},
+        {"b", &Seam::b, seam_side, "The other side.", "a side of a seam"},
+    }};
+
 const Object<Cutter> cutter{
     "cutter",
     "A triangle that cuts every cloth it meets while it is active. A cut found at the end of a frame acts from the "
@@ -378,6 +398,8 @@ const Object<SceneDescription> scene{
          "The cloths. Where one has self_collision they meet each other; else they pass through each other and "
          "themselves.",
          cloth_count},
+        {"seams", &SceneDescription::seams, list<Seam>(seam, "an array of at most 4096 seams", 0, 4096),
+         "What sews the cloths together. Not beside self_collision, gravity_keys, forces and bodies with a mass."},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
          "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "

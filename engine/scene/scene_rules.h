@@ -103,6 +103,8 @@ bool check_fields(const SceneNode& colliders, const SceneDescription& scene);
 bool set_twist(const Members& members, Rigidity& rigidity);
 /// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
+/// Checks that the cloths can be sewn as the scene wants.
+bool check_seams(const SceneNode& seams, const SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.
 void warn_of_doubts(const Members& members, const SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);

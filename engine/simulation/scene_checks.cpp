@@ -11,6 +11,7 @@
 #include "world/mass_properties.h"
 #include "world/overlap.h"
 #include "world/panel.h"
+#include "world/seams.h"
 #include "world/start.h"
 #include "world/start_crossings.h"
 
@@ -260,6 +261,9 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
         for (const StartCrossing& crossing : start_crossings(scene))
             expect(!is_refused(scene, crossing), fmt::format("/cloths/{}", crossing.second),
                    ("cloths that start apart: " + crossing_text(scene, crossing)).c_str());
+    if (result.errors.empty())
+        for (const SeamFault& fault : seam_faults(scene))
+            result.errors.push_back({"scene", 0, 0, "/seams" + fault.below, fault.text});
     if (!result.errors.empty()) throw SceneFailure(std::move(result));
     return scene;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "cloth/frame_steps.h"
 #include "cloth/kernel_steps.h"
 #include "cloth/step_flops.h"
 #include "cloth/together.h"
@@ -169,6 +170,8 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
                           .lifetime = model_.mesh_fields.deform() ? Lifetime::persistent : Lifetime::constant,
                           .element = &glsl::layout_of<glsl::vec4>(),
                           .texels = true});
+    if (model_.sewn_count > 0)
+        inputs_.sewn_places = graph.buffer<glsl::SewnPlace>("sewn places", model_.sewn_count, Lifetime::persistent);
     declare_forms(graph, model_, inputs_);
 }
 
@@ -350,6 +353,7 @@ void ClothSolver::add_normals(graph::Graph& graph) {
         add_compute_pass(graph, state.pass_name("normals", "normals"), pipeline, glsl::GridPush{grid.size()},
                          {grid.columns(), grid.rows(), state.count()}, {&state});
     });
+    for (const Step& step : normal_steps(*run_)) add_dispatches(graph, step);
 }
 
 void ClothSolver::add_readback(graph::Graph& graph, Field image, std::string_view what) {

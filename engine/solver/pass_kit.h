@@ -89,7 +89,8 @@ struct SceneInputs {
     graph::Handle mesh_fields;  ///< distances to meshes, as texels (shared/collider_types.h)
     /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
-    graph::Handle attempt;  ///< closed loops: a SubstepChange per cloth
+    graph::Handle sewn_places;  ///< of all cloths: a SewnPlace each; passes write it
+    graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth
 };
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.

@@ -51,6 +51,13 @@ bool keeps_before(Place p) { return (p.step.last || !p.scheme().ended.empty()) &
 /// Returns whether some cloths started through each other.
 bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
 
+int seam_stage(Place p) { return p.step.push<glsl::SeamPush>().stage; }
+/// Contact writes the position and the displacement of the substep before.
+std::uint32_t sews_touched(Place p) {
+    const bool moves = seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_touched;
+    return moves && !p.model.scene.colliders.empty() ? 1u : 0u;
+}
+
 /// Returns the directions of springs whose tension is known when a frame begins and ends: explicit steps keep none.
 std::uint32_t known_tensions(Place p) {
     std::uint32_t bits = 0;
@@ -101,6 +108,9 @@ constexpr ConstantRow constant_rows[] = {
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
     {"pays_ahead", [](Place p) { return p.step.last && p.step.substep > 0 && has(p, Field::paid) ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
+    {"sews_predicted", [](Place p) { return seam_stage(p) <= glsl::seam_released ? 1u : 0u; }},
+    {"sews_touched", sews_touched},
+    {"sews_vectors", [](Place p) { return seam_stage(p) >= glsl::seam_forces ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
     {"splits", [](Place p) { return splits_pins(p.model.scene) ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},

@@ -36,6 +36,12 @@ std::string line_label(Place p) {
 std::string explicit_label(Place p) {
     return p.step.count > 1 ? fmt::format("{} explicit steps", p.step.count) : "explicit step";
 }
+std::string seam_words(Place p) {
+    constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces", "normals"};
+    return words[p.step.push<glsl::SeamPush>().stage];
+}
+std::string seam_give_label(Place p) { return "seam gives " + seam_words(p); }
+std::string seam_take_label(Place p) { return "seam takes " + seam_words(p); }
 std::string collider_edges_label(Place p) { return p.step.after_edges ? "collider edges again" : "collider edges"; }
 
 graph::PushConstants wind_push(Place p) {
@@ -110,6 +116,11 @@ std::string all_springs_alias(Place p, std::string_view name, bool written) {
     const bool spare = written ? p.step.turns : !p.step.turns && p.step.iteration > 0;
     return std::string(name) + (spare ? "_spare" : "");
 }
+std::string seam_alias(Place p, std::string_view name, bool written) {
+    if (name == "wind_force" && p.step.push<glsl::SeamPush>().stage == glsl::seam_normals)
+        return variable_of(Field::normal);
+    return before_alias(p, name, written);
+}
 std::string collider_edges_alias(Place p, std::string_view name, bool written) {
     if (written) return variable_of(p.step.after_edges ? Field::lifted : Field::lifted_once);
     return name == "displacement" && p.step.after_edges ? variable_of(Field::lifted_once) : std::string();
@@ -173,6 +184,18 @@ std::vector<StepRow> other_rows() {
         {StepKind::torque, "torque", {{plain, "torque.comp", over_torque_sums}}},
         {StepKind::rotate, "rotation", {{plain, "rotate.comp", over_strips}}},
         {StepKind::tether, "tethers", {{plain, "tether.comp", over_strips}}, grid_push},
+        {StepKind::seam_give,
+         seam_give_label,
+         {{plain, "seam_give.comp", over_sewn_particles}},
+         nullptr,
+         nullptr,
+         seam_alias},
+        {StepKind::seam_take,
+         seam_take_label,
+         {{plain, "seam_take.comp", over_sewn_particles}},
+         nullptr,
+         nullptr,
+         seam_alias},
         {StepKind::collider_edges,
          collider_edges_label,
          {{plain, "collider_edges.comp", over_columns}},

@@ -119,6 +119,10 @@ DispatchSize over_pins(const StepPlace& place, const ComputePipeline&) {
     return {static_cast<std::uint32_t>(place.cloth->pinned_count)};  // the list is of all cloths together
 }
 
+DispatchSize over_sewn_particles(const StepPlace& place, const ComputePipeline&) {
+    return {whole(place.step.push<glsl::SeamPush>().particle_count)};
+}
+
 DispatchSize over_springs(const StepPlace& place, const ComputePipeline&) {
     const glsl::ivec2 count = place.step.push<glsl::SpringPush>().pair_count;
     return of_cloths(place, whole(count.x), whole(count.y));

@@ -20,6 +20,7 @@ DispatchSize over_strips(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_columns(const StepPlace& place, const ComputePipeline&);       ///< strip_rows(step_rounds) each
 DispatchSize over_wide_columns(const StepPlace& place, const ComputePipeline&);  ///< and strip_columns() of them
 DispatchSize over_pins(const StepPlace& place, const ComputePipeline&);
+DispatchSize over_sewn_particles(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_springs(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_bends(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_twists(const StepPlace& place, const ComputePipeline&);

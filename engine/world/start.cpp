@@ -68,6 +68,18 @@ double highest_triangle(const Cloth& cloth) {
     return highest;
 }
 
+/// Returns whether particles are on the rim and so far apart on the cloth that a seam may make them one.
+bool may_be_sewn(const Cloth& cloth, std::size_t one, std::size_t other) {
+    const std::size_t columns = cloth.grid[0], rows = cloth.grid[1];
+    const auto on_rim = [&](std::size_t i) {
+        const std::size_t column = i % columns, row = i / columns;
+        return column == 0 || column + 1 == columns || row == 0 || row + 1 == rows;
+    };
+    const auto apart = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
+    return on_rim(one) && on_rim(other) &&
+           std::max(apart(one % columns, other % columns), apart(one / columns, other / columns)) > 2;
+}
+
 Vec3 summed_normal(const Cloth& cloth) {
     Vec3 normal{};
     for_triangles(cloth, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -368,7 +380,7 @@ std::string start_fault(const Cloth& cloth) {
     std::ranges::sort(
         order, [&](std::size_t a, std::size_t b) { return std::tie(cloth.start[a], a) < std::tie(cloth.start[b], b); });
     for (std::size_t i = 1; i < order.size(); ++i)
-        if (cloth.start[order[i]] == cloth.start[order[i - 1]])
+        if (cloth.start[order[i]] == cloth.start[order[i - 1]] && !may_be_sewn(cloth, order[i - 1], order[i]))
             return fmt::format("a place of its own for each particle, got one place for {} and {}",
                                particle(order[i - 1]), particle(order[i]));
     if (!(highest_triangle(cloth) > resolution(cloth, {}, {})))

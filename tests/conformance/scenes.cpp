@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "support/self_contact_scenes.h"
+#include "support/sewn_scenes.h"
 #include "twin_comparison.h"
 
 namespace drape::test {
@@ -222,6 +223,8 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"ContactOfLayers", layers(line, 6), 12},
         {"ContactOfLayersWithMaps", with_maps(layers(line, 6)), 12},
         {"ContactParting", parting(line, 5), 0},
+        {"SewnLine", with(three_panels(line), line, 4), 5},
+        {"SewnExplicit", with(three_panels(explicit_steps), explicit_steps, 12), 5},
         {"ForcesInFlight", telling_forces(flying(false)), 5},
         {"ForcesOfParting", telling_forces(parting(line, 5)), 0},
     };

@@ -32,6 +32,8 @@ const std::vector<StepBound>& step_bounds() {
         {torque, 64, fixed, 0, "divisions by masses and drag, added up"},
         {rotate, 64, fixed, 0, "the roots of a matrix by six divisions, of the cloth's size over an arm"},
         {tether, 16, fixed, 0, "a root and a division for each of two tethers"},
+        {seam_give, -1, fixed, 0, "it writes no field: what it hands on is judged at seam_take"},
+        {seam_take, 4, fixed, 0, "means and sums of what cloths have handed on"},
         {collider_edges, 32, fixed, 0, "divisions of where a triangle cuts an edge; which edge is decided by them"},
         // Contact leaves what rests just as deep as its surface lets it be, so rounding says of any such particle
         // whether the next collision finds it there, and whether it is led out: a tenth of a cloth on a ball.

@@ -12,8 +12,9 @@ namespace drape::test {
 template <class Visit>
 void for_compared_fields(const SimulationModel& model, Twin& twin, Visit visit,
                          const FrameNeeds& needs = {.drawing = true}) {
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) twin.normals(cloth);
+    twin.sew_normals();
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        twin.normals(cloth);
         const TwinCloth& expected = twin.cloth(cloth);
         const FieldContext about{model, model.cloths[cloth], expected.topology, needs};
         for (const FieldRow& row : cloth_fields())

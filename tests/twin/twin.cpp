@@ -82,6 +82,8 @@ Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model
         if (kernels.has(each)) kernels_.add(each);
     kernels_.group = kernels.group;
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
+    const auto sewn = std::make_shared<std::vector<glsl::SewnPlace>>(model.sewn_count);
+    for (TwinCloth& cloth : cloths_) cloth.sewn = sewn;
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
@@ -302,7 +304,7 @@ StepFunction function_of(StepKind kind) {
         std::map<StepKind, StepFunction> all;
         for (const auto& rows : {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(),
                                  twin_nested_rows(), twin_bend_rows(), twin_contact_rows(), twin_check_rows(),
-                                 twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows()})
+                                 twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows(), twin_seam_rows()})
             for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
         return all;
     }();
@@ -321,6 +323,10 @@ void Twin::run_step(const Step& step, FrameInputs& inputs) {
         function_of(step.kind)({*model_, model_->cloths[cloth], cloths_[cloth], step, inputs, inputs.pins[cloth],
                                 contact_ ? &*contact_ : nullptr});
     }
+}
+
+void Twin::sew_normals() {
+    for (const Step& step : normal_steps(*model_)) run_step(step, {});
 }
 
 void Twin::normals(std::size_t index) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -55,9 +56,10 @@ struct TwinCloth {
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    glsl::ResidualRecord residual{};    ///< result of the last residual step
-    bool iterates = true;               ///< last decision: whether conditional steps run
-    std::uint32_t iteration_count = 0;  ///< iterations of the frame, when adaptive
+    std::shared_ptr<std::vector<glsl::SewnPlace>> sewn;  ///< of all cloths
+    glsl::ResidualRecord residual{};                     ///< result of the last residual step
+    bool iterates = true;                                ///< last decision: whether conditional steps run
+    std::uint32_t iteration_count = 0;                   ///< iterations of the frame, when adaptive
 };
 
 /// A pair of primitives that may meet.
@@ -133,7 +135,8 @@ struct TwinRow {
     void (*run)(const TwinPlace&);
 };
 std::vector<TwinRow> twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(), twin_bend_rows(),
-    twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows();
+    twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows(),
+    twin_seam_rows();
 
 class Twin {
   public:
@@ -154,6 +157,8 @@ class Twin {
     void run_step(const Step& step, FrameInputs& inputs);
     void run_step(const Step& step, FrameInputs&& inputs) { run_step(step, inputs); }
     void normals(std::size_t cloth);
+    /// Makes the normals of all cloths, once these have theirs, one at seams.
+    void sew_normals();
     /// Computes the tension at a frame's end, for the statistics of an explicit method.
     void tension(std::size_t cloth);
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "drape/look.h"
+#include "drape/seam.h"
 #include "drape/solid.h"
 #include "drape/solver_method.h"
 #include "drape/spelling.h"
@@ -420,6 +421,7 @@ struct SceneDescription {
     std::vector<VectorKey> gravity_keys;  ///< m/s^2, strictly increasing in time; empty: gravity is constant
     Wind wind;
     std::vector<Cloth> cloths;
+    std::vector<Seam> seams;
     std::vector<Collider> colliders;
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;

@@ -1,6 +1,7 @@
-// Enumerations of the scene format have a word for each value.
+// The words of a scene file that stand for values of an enumeration.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace drape {

@@ -1,0 +1,40 @@
+// Seams: particles of several cloths, or of one, that are one (docs/physics.md 12).
+#ifndef DRAPE_SEAM_H
+#define DRAPE_SEAM_H
+
+#include "include/vector.h"
+
+/// Returns the mean of the particles up to one with this value, which has this share in it: those before have the mean
+/// `mean`. A share of 1 is the value itself, 0 leaves the mean, to the bit.
+SHARED vec3 sewn_mean(vec3 mean, vec3 value, float share) {
+    precise vec3 further = mean + (value - mean) * share;
+    return share == 1.0f ? value : share == 0.0f ? mean : further;
+}
+
+/// Returns the square of the way that contact has led a particle by, in displacement and position.
+SHARED float sewn_way(vec3 moved, vec3 displacement, vec3 start, vec3 position) {
+    precise vec3 way = (moved - displacement) + (start - position);
+    return ordered_dot(way, way);
+}
+
+/// Adds a force; its drag is in w.
+SHARED vec4 sewn_force(vec4 sum, vec4 force) {
+    precise vec4 more = vec4(sum.x + force.x, sum.y + force.y, sum.z + force.z, sum.w + force.w);
+    return more;
+}
+
+/// Returns what of the forces on a place is one particle's, where several of a cloth share the mass of the place.
+SHARED vec4 own_force(vec4 sum, float part) {
+    precise vec4 own = vec4(sum.x * part, sum.y * part, sum.z * part, sum.w * part);
+    return own;
+}
+
+/// Adds a normal to that of a seam, unless the cloths make an edge there: beyond a right angle each keeps its own.
+SHARED vec3 sewn_normal(vec3 sum, vec3 normal) {
+    precise vec3 more = sum + normal;
+    return ordered_dot(sum, normal) > 0.0f ? more : sum;
+}
+
+SHARED bool shares_normal(vec3 sum, vec3 normal) { return ordered_dot(sum, normal) > 0.0f; }
+
+#endif

@@ -1,0 +1,43 @@
+// Shaders and C++ share these structs of the steps that keep sewn particles together (include/seam.h), in std430.
+#ifndef DRAPE_SEAM_TYPES_H
+#define DRAPE_SEAM_TYPES_H
+
+#include "shared/glsl_types.h"
+
+#ifdef __cplusplus
+namespace drape::glsl {
+#endif
+
+/// What a cloth's sewn particles hand on: how the prediction or the pins moved them, whether pins hold them, how the
+/// springs moved them, how contact did, the force on them, and their normals.
+const int seam_predicted = 0, seam_released = 1, seam_solved = 2, seam_touched = 3, seam_forces = 4, seam_normals = 5;
+
+struct SeamPush {
+    int particle_count;  // the cloth's, at seams
+    int stage;
+    int unused_a, unused_b;
+};
+
+/// A particle of a cloth at a seam.
+struct SewnParticle {
+    ivec4 at;  // column, row; the place where it is sewn; how many of the cloth's particles are there, from this one
+               // on, in the list one after the other: 0 but for the first of them
+    vec4 weights;  // x: its share in the mean of those of all cloths up to it (1: it alone counts); y: its inverse mass
+                   // where no pin holds the place; z: 1 = it is the first of all cloths' there; w: unused
+    vec4 parts;    // x: its share in the mean of those of its own cloth up to it; y: its mass over theirs; z, w: unused
+};
+
+/// What is known of a place where particles are sewn, as the last cloth has left it.
+struct SewnPlace {
+    vec4 position;      // m; w: the inverse mass of the particle that leads; 0: it is held
+    vec4 displacement;  // m; w: as in the cloth's field
+    vec4 remainder;     // m: what rounding lost of the displacement
+    vec4 before;        // m: the displacement of the substep before
+    vec4 vector;        // N: the sum of the forces; w: their drag, N/m. At a frame's end the sum of the normals
+};
+
+#ifdef __cplusplus
+}  // namespace drape::glsl
+#endif
+
+#endif

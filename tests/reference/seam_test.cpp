@@ -1,0 +1,275 @@
+// Sewn cloth, by the twin, against what nobody tuned: the network in double precision in which a sewn particle is one,
+// the plain sheet, and what nothing from outside can change.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "base/vectors.h"
+#include "cloth/cloth_statistics.h"
+#include "reference/implicit_reference.h"
+#include "reference/sewn_network.h"
+#include "support/sheets.h"
+#include "twin/statistics.h"
+#include "twin/twin.h"
+#include "world/seams.h"
+
+namespace drape {
+namespace {
+
+SceneDescription with_method(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
+    scene.solver.method = method;
+    scene.solver.substeps = substeps;
+    return scene;
+}
+
+/// A level sheet of so many links a side and 1 m, held by its top row.
+SceneDescription plain_sheet(std::uint32_t links) {
+    SceneDescription scene = test::sheet(links + 1, links + 1, 1, 1, 8);
+    Cloth& cloth = scene.cloths[0];
+    cloth.placement = {{-0.5, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+    cloth.stiffness = {false, 1000, 100, 1e-4};
+    cloth.pins = {test::pin_top(cloth)};
+    return scene;
+}
+
+/// The same of two halves, sewn across the load or along it.
+SceneDescription halves(std::uint32_t links, bool across) {
+    SceneDescription scene = plain_sheet(links);
+    Cloth& one = scene.cloths[0];
+    one.name = "one";
+    const std::size_t axis = across ? 1 : 0;
+    one.grid[axis] = links / 2 + 1;
+    one.size[axis] = 0.5;
+    one.pins = {test::pin_box(0, 0, one.grid[0] - 1, 0)};
+    Cloth other = one;
+    other.name = "other";
+    other.placement.origin[across ? 2 : 0] += 0.5;
+    if (across) other.pins.clear();
+    scene.cloths.push_back(other);
+    scene.seams = {across ? Seam{{"one", SeamEdge::bottom}, {"other", SeamEdge::top}}
+                          : Seam{{"one", SeamEdge::right}, {"other", SeamEdge::left}}};
+    return scene;
+}
+
+/// A tube of one cloth, 0.2 m wide, that hangs from its upper rim and is thrown sideways.
+SceneDescription tube(std::uint32_t around, std::uint32_t down) {
+    const double length = 0.64, height = 0.5;
+    SceneDescription scene = test::sheet(around + 1, down + 1, length, height, 8);
+    Cloth& cloth = scene.cloths[0];
+    cloth.stiffness = {false, 1000, 100, 1e-4};
+    cloth.pins = {test::pin_top(cloth)};
+    cloth.velocity = {0.1, 0, 0.04};  // one that is thrown harder crumples, and ends elsewhere by any error
+    const double radius = length / around / (2 * std::sin(std::numbers::pi / around));
+    for (std::uint32_t row = 0; row <= down; ++row)
+        for (std::uint32_t column = 0; column <= around; ++column) {
+            const double angle = 2 * std::numbers::pi * (column % around) / around;
+            cloth.start.push_back({radius * std::cos(angle), -height * row / down, radius * std::sin(angle)});
+        }
+    cloth.placement = {};
+    scene.seams = {{{cloth.name, SeamEdge::left}, {cloth.name, SeamEdge::right}}};
+    return scene;
+}
+
+Vec3 place_of(const TwinCloth& cloth, std::size_t i) {
+    const glsl::vec4& at = cloth[Field::position][i];
+    return {double{at.x}, double{at.y}, double{at.z}};
+}
+
+/// Returns how far a run is from the network's motion after so many frames, RMS over the network's particles.
+double distance_from(const std::vector<Vec3>& exact, const SewnNetwork& sewn, const Twin& twin) {
+    double squares = 0;
+    std::vector<bool> seen(exact.size());
+    for (std::size_t cloth = 0; cloth < sewn.particle.size(); ++cloth)
+        for (std::size_t i = 0; i < sewn.particle[cloth].size(); ++i) {
+            const std::uint32_t at = sewn.particle[cloth][i];
+            if (seen[at]) continue;
+            seen[at] = true;
+            const Vec3 way = minus(place_of(twin.cloth(cloth), i), exact[at]);
+            squares += dot(way, way);
+        }
+    return std::sqrt(squares / static_cast<double>(exact.size()));
+}
+
+double distance_after(const SceneDescription& scene, const std::vector<Vec3>& exact, const SewnNetwork& sewn,
+                      std::uint32_t frames) {
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= frames; ++frame) twin.run_frame(frame);
+    return distance_from(exact, sewn, twin);
+}
+
+std::vector<Vec3> exact_after(const SewnNetwork& sewn, double seconds) {
+    const double times[] = {seconds};
+    return implicit_states(sewn.network, times, 5e-4).front().position;
+}
+
+TEST(Seam, LinesConvergeToTheNetworkWithSharedParticles) {
+    constexpr std::uint32_t frames = 12;
+    for (const SceneDescription& scene : {halves(24, true), halves(24, false), tube(24, 16)}) {
+        const SewnNetwork sewn = sewn_network(scene);
+        const std::vector<Vec3> exact = exact_after(sewn, frames / 60.0);
+        double before = 1;
+        for (const std::uint32_t substeps : {8u, 16u, 32u}) {
+            const double off = distance_after(with_method(scene, SolverMethod::line, substeps), exact, sewn, frames);
+            std::printf("[ measured ] line, %u substeps: %.3f mm\n", substeps, 1000 * off);
+            EXPECT_LT(off, before / 1.5) << substeps;
+            before = off;
+        }
+        EXPECT_LT(before, 2e-4) << "m";
+    }
+}
+
+TEST(Seam, RelaxationConvergesToTheNetwork) {
+    constexpr std::uint32_t frames = 12;
+    const SceneDescription scene = halves(8, true);
+    const SewnNetwork sewn = sewn_network(scene);
+    const std::vector<Vec3> exact = exact_after(sewn, frames / 60.0);
+    double before = 1;
+    for (const std::uint32_t substeps : {64u, 128u, 256u}) {
+        const double off = distance_after(with_method(scene, SolverMethod::relax, substeps), exact, sewn, frames);
+        std::printf("[ measured ] relax, %u substeps: %.3f mm\n", substeps, 1000 * off);
+        EXPECT_LT(off, before / 1.5) << substeps;
+        before = off;
+    }
+}
+
+TEST(Seam, ExplicitStepsOfHalvesAreThoseOfTheSheet) {
+    constexpr std::uint32_t frames = 18;
+    const auto limp = [](SceneDescription scene) {  // bending ends at a seam
+        for (Cloth& cloth : scene.cloths) cloth.stiffness.bend = 0;
+        return with_method(std::move(scene), SolverMethod::explicit_steps, 64);
+    };
+    const SimulationModel plain(limp(plain_sheet(16))), model(limp(halves(16, true)));
+    Twin sheet(plain), twin(model);
+    for (std::uint32_t frame = 1; frame <= frames; ++frame) {
+        sheet.run_frame(frame);
+        twin.run_frame(frame);
+    }
+    double farthest = 0;
+    for (std::size_t i = 0; i < 17 * 17; ++i) {
+        const std::size_t row = i / 17, in_other = i - 17 * 8;
+        const Vec3 sewn = row <= 8 ? place_of(twin.cloth(0), i) : place_of(twin.cloth(1), in_other);
+        farthest = std::max(farthest, length(minus(sewn, place_of(sheet.cloth(0), i))));
+    }
+    std::printf("[ measured ] halves by explicit steps: %.2g m from the sheet\n", farthest);
+    EXPECT_LT(farthest, 1e-4);
+}
+
+/// The momenta of all cloths about the origin, by the masses of their own cells, and their mass.
+struct Momenta {
+    double mass = 0;
+    Vec3 linear{}, angular{};
+};
+
+Momenta momenta_of(const SimulationModel& model, const Twin& twin) {
+    Momenta all;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+        const ClothModel& own = model.cloths[cloth];
+        const std::vector<float> shares = mass_shares(own);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const double mass = own.inner_mass * double{shares[i]};
+            const glsl::vec4& moved = twin.cloth(cloth)[Field::displacement][i];
+            const Vec3 velocity =
+                times(1 / own.substep_length, Vec3{double{moved.x}, double{moved.y}, double{moved.z}});
+            all.mass += mass;
+            all.linear = plus(all.linear, times(mass, velocity));
+            all.angular = plus(all.angular, cross(place_of(twin.cloth(cloth), i), times(mass, velocity)));
+        }
+    }
+    return all;
+}
+
+TEST(Seam, FreeClothKeepsItsMomentum) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps}) {
+        SceneDescription scene =
+            with_method(halves(12, true), method, method == SolverMethod::explicit_steps ? 64 : 16);
+        scene.gravity = {};
+        scene.cloths[0].pins.clear();
+        scene.cloths[0].velocity = {0, 1, 0.2};
+        scene.cloths[1].velocity = {0.3, -1, 0};
+        scene.cloths[1].areal_density = 0.35;
+        scene.cloths[0].placement.jitter = scene.cloths[1].placement.jitter = 0.005;
+        const SimulationModel model(scene);
+        Twin twin(model);
+        twin.run_frame(1);
+        const Momenta first = momenta_of(model, twin);
+        for (std::uint32_t frame = 2; frame <= 30; ++frame) twin.run_frame(frame);
+        const Momenta last = momenta_of(model, twin);
+        EXPECT_NEAR(first.mass, 0.5 * 0.2 + 0.5 * 0.35, 1e-6) << "mass at the seam counts once";
+        const double scale = first.mass * 1.0;
+        const double linear = length(minus(last.linear, first.linear)) / scale,
+                     angular = length(minus(last.angular, first.angular)) / scale;
+        std::printf("[ measured ] %s: momentum changes by %.1e, angular by %.1e of mass times 1 m/s\n",
+                    std::string(named(method).name).c_str(), linear, angular);
+        EXPECT_LT(linear, 2e-6);
+        EXPECT_LT(angular, 5e-3);
+    }
+}
+
+TEST(Seam, AFollowerOfAHeldLeaderIsHeldAndOneThatIsLetGoIsFree) {
+    SceneDescription scene = with_method(halves(8, true), SolverMethod::line, 8);
+    Pin released = test::pin_box(4, 0, 4, 0);
+    released.release = 0.05;
+    scene.cloths[0].pins = {test::pin_box(0, 4, 0, 4)};
+    scene.cloths[1].pins = {released};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    const auto weight = [&](std::size_t cloth, std::size_t i) { return twin.cloth(cloth)[Field::position][i].w; };
+    const Vec3 start = place_of(twin.cloth(1), 0);
+    for (std::uint32_t frame = 1; frame <= 2; ++frame) twin.run_frame(frame);
+    EXPECT_EQ(weight(0, 4 * 9 + 4), 0.0f) << "the leader of a held follower";
+    for (std::uint32_t frame = 3; frame <= 12; ++frame) twin.run_frame(frame);
+    EXPECT_EQ(place_of(twin.cloth(1), 0), start) << "the follower of a held leader";
+    EXPECT_EQ(weight(1, 0), 0.0f);
+    EXPECT_EQ(weight(0, 4 * 9 + 4), 1.0f);
+    EXPECT_EQ(weight(1, 4), 1.0f) << "both have the mass of both";
+}
+
+double kinetic_energy(const SimulationModel& model, const Twin& twin) {
+    double all = 0;
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
+        const ClothModel& own = model.cloths[cloth];
+        const std::vector<float> shares = mass_shares(own);
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            const glsl::vec4& moved = twin.cloth(cloth)[Field::displacement][i];
+            const Vec3 way{double{moved.x}, double{moved.y}, double{moved.z}};
+            all += own.inner_mass * double{shares[i]} * dot(way, way) / 2;
+        }
+    }
+    return all / (model.cloths[0].substep_length * model.cloths[0].substep_length);
+}
+
+/// Cloth never has more than the energy of its strained start and of its fall, whose most is that of a metre.
+TEST(Seam, FortyBadStartsDoNotBlowUp) {
+    double most = 0;
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax})
+        for (const bool across : {true, false})
+            for (std::uint32_t seed = 0; seed < 20; ++seed) {
+                SceneDescription scene = with_method(halves(12, across), method, 2 + seed % 6);
+                for (Cloth& cloth : scene.cloths) {
+                    cloth.placement.jitter = 0.08;
+                    cloth.placement.seed = seed + (&cloth == scene.cloths.data() ? 0 : 100);
+                }
+                const SimulationModel model(scene);
+                Twin twin(model);
+                const SewnNetwork sewn = sewn_network(scene);
+                std::vector<Vec3> start(sewn.network.particle_count());
+                for (std::size_t cloth = 0; cloth < 2; ++cloth)
+                    for (std::size_t i = 0; i < sewn.particle[cloth].size(); ++i)
+                        start[sewn.particle[cloth][i]] = place_of(twin.cloth(cloth), i);
+                const double given =
+                    sewn.network.spring_energy(start) + sewn.network.bending_energy(start) + 0.2 * 9.81 * 1;
+                for (std::uint32_t frame = 1; frame <= 40; ++frame) {
+                    twin.run_frame(frame);
+                    const double part = kinetic_energy(model, twin) / given;
+                    most = std::max(most, part);
+                    ASSERT_LT(part, 1) << named(method).name << ", seed " << seed << ", frame " << frame;
+                }
+            }
+    std::printf("[ measured ] 80 bad starts: at most %.2f of their energy is kinetic\n", most);
+}
+
+}  // namespace
+}  // namespace drape

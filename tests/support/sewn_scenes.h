@@ -1,0 +1,74 @@
+// Scenes of sewn cloths.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "support/sheets.h"
+
+namespace drape::test {
+
+inline constexpr std::uint32_t sewn_substeps = 12;
+
+/// Two panels of unlike rows and densities, the second hanging from the first by its seam, in wind.
+inline SceneDescription two_panels(SolverMethod method) {
+    SceneDescription scene = sheet(17, 12, 0.8, 0.55, sewn_substeps, 1);
+    scene.solver.method = method;
+    scene.wind.velocity = {1, 0.3, -2};
+    Cloth& upper = scene.cloths[0];
+    upper.name = "upper";
+    upper.placement = {{-0.4, 0.5, -0.3}, {1, 0, 0}, {0, 0, 1}};
+    upper.stiffness = {false, 800, 60, 1e-5};
+    upper.velocity = {0.1, 0, 0.4};
+    upper.pins = {pin_box(0, 0, 16, 0)};
+    Cloth lower = upper;
+    lower.name = "lower";
+    lower.grid = {17, 9};
+    lower.size = {0.8, 0.4};
+    lower.areal_density = 0.3;
+    lower.velocity = {};
+    lower.pins = {};
+    lower.placement.origin = {-0.4, 0.5, 0.25};
+    scene.cloths.push_back(lower);
+    scene.seams = {{{"upper", SeamEdge::bottom}, {"lower", SeamEdge::top}}};
+    return scene;
+}
+
+/// Three panels of which two hang from one seam, all with colliders in their way, and a pin on a follower that moves
+/// and one that lets go.
+inline SceneDescription three_panels(SolverMethod method) {
+    SceneDescription scene = two_panels(method);
+    Cloth third = scene.cloths[1];
+    third.name = "third";
+    third.placement.v = {0, -1, 0};
+    scene.cloths.push_back(third);
+    scene.seams.push_back({{"third", SeamEdge::top}, {"upper", SeamEdge::bottom}});
+    Pin moving = pin_box(0, 0, 2, 0), released = pin_box(16, 0, 16, 0);
+    moving.path.keys = {{0, {0, 0, 0}, {}}, {0.2, {0.1, 0.05, 0}, {0, 30, 10}}};
+    released.release = 0.11;
+    scene.cloths[1].pins = {moving, released};
+    scene.colliders = {{Sphere{{0, 0.1, 0.3}, 0.3}, 0.3}, {Box{{0.3, 0.2, 0}, {0.1, 0.15, 0.2}}, 0.3}};
+    return scene;
+}
+
+/// A tube that is one cloth, hung by its upper rim.
+inline SceneDescription tube(SolverMethod method) {
+    constexpr std::uint32_t around = 24, down = 12;
+    SceneDescription scene = sheet(around + 1, down + 1, 0.75, 0.4, sewn_substeps, 1);
+    scene.solver.method = method;
+    Cloth& cloth = scene.cloths[0];
+    cloth.stiffness = {false, 800, 60, 0};
+    cloth.pins = {pin_box(0, 0, around, 0)};
+    cloth.velocity = {3, -1, 1};
+    const double radius = 0.75 / around / (2 * std::sin(std::numbers::pi / around));
+    for (std::uint32_t row = 0; row <= down; ++row)
+        for (std::uint32_t column = 0; column <= around; ++column) {
+            const double angle = 2 * std::numbers::pi * (column % around) / around;
+            cloth.start.push_back({radius * std::cos(angle), -0.4 * row / down, radius * std::sin(angle)});
+        }
+    cloth.placement = {};
+    scene.seams = {{{cloth.name, SeamEdge::left}, {cloth.name, SeamEdge::right}}};
+    return scene;
+}
+
+}  // namespace drape::test
