@@ -42,17 +42,18 @@ SHARED vec3 body_point(BodyConstants body, int k, vec3 normal) {
 
 /// A point of a body at a plane.
 struct BodyTouch {
-    vec3 arm;      // from the centre of mass, m
-    vec3 normal;   // of the plane
-    vec3 ground;   // the plane's velocity there, m/s
-    float least;   // that the point may have along the normal, beyond the plane's, m/s
-    float depth;   // m
+    vec3 arm;     // from the centre of mass, m
+    vec3 normal;  // of the plane
+    vec3 ground;  // the plane's velocity there, m/s
+    float least;  // that the point may have along the normal, beyond the plane's, m/s
+    float depth;  // m
 };
 
 SHARED BodyTouch body_touch(RigidBody body, BodyConstants constants, int k, ColliderRecord plane, float step) {
     vec3 normal = vec3(plane.shape.x, plane.shape.y, plane.shape.z);
     vec3 own = turned_by_quaternion(opposite_turn(body.turn), normal);
-    precise vec3 local = body_point(constants, k, own) - vec3(constants.center.x, constants.center.y, constants.center.z);
+    precise vec3 local =
+        body_point(constants, k, own) - vec3(constants.center.x, constants.center.y, constants.center.z);
     vec3 arm = turned_by_quaternion(body.turn, local);
     precise vec3 place = body.position + arm;
     vec3 carried = surface_displacement(plane, local_point(plane, place));
@@ -85,8 +86,7 @@ SHARED RigidBody pushed_body(RigidBody body, BodyConstants constants, vec3 arm, 
 
 /// Returns the impulse along the normal of a touch that has `before`, N s.
 SHARED float normal_impulse(RigidBody body, BodyConstants constants, BodyTouch touch, float before) {
-    vec3 velocity =
-        touch_velocity(body, vec3(constants.inverse.x, constants.inverse.y, constants.inverse.z), touch);
+    vec3 velocity = touch_velocity(body, vec3(constants.inverse.x, constants.inverse.y, constants.inverse.z), touch);
     float mass = touch_mass(body, constants, touch.arm, touch.normal);
     precise float impulse = before + (touch.least - ordered_dot(velocity, touch.normal)) * mass;
     return impulse > 0.0f ? impulse : 0.0f;
@@ -94,8 +94,7 @@ SHARED float normal_impulse(RigidBody body, BodyConstants constants, BodyTouch t
 
 /// Returns the impulse along the plane of a touch that has `before`, N s, at most `most`.
 SHARED vec3 grip_impulse(RigidBody body, BodyConstants constants, BodyTouch touch, vec3 before, float most) {
-    vec3 velocity =
-        touch_velocity(body, vec3(constants.inverse.x, constants.inverse.y, constants.inverse.z), touch);
+    vec3 velocity = touch_velocity(body, vec3(constants.inverse.x, constants.inverse.y, constants.inverse.z), touch);
     precise vec3 along = velocity - touch.normal * ordered_dot(velocity, touch.normal);
     precise float speed = sqrt(ordered_dot(along, along));
     vec3 impulse = before;
@@ -149,8 +148,8 @@ SHARED ColliderRecord placed_record(ColliderRecord record, BodyConstants constan
     placed.change_x = vec4(change_x.x, change_y.x, change_z.x, moved.x);
     placed.change_y = vec4(change_x.y, change_y.y, change_z.y, moved.y);
     placed.change_z = vec4(change_x.z, change_y.z, change_z.z, moved.z);
-    precise float squared = ordered_dot(change_x, change_x) + ordered_dot(change_y, change_y) +
-                            ordered_dot(change_z, change_z);
+    precise float squared =
+        ordered_dot(change_x, change_x) + ordered_dot(change_y, change_y) + ordered_dot(change_z, change_z);
     precise float turn = sqrt(squared * 0.5f);
     precise float motion = (sqrt(ordered_dot(moved, moved)) + turn * constants.size.w) * 1.0001f;
     // As on the host (cloth/frame_inputs.cpp): after so wide a turn a straight line is no good measure of a path.

@@ -1,10 +1,9 @@
 // Loads and stores the state of a body. The includer has the image `bodies`.
 RigidBody body_at(int number) {
-    return RigidBody(imageLoad(bodies, ivec2(body_position, number)).xyz,
-                     imageLoad(bodies, ivec2(body_remainder, number)).xyz,
-                     imageLoad(bodies, ivec2(body_turn, number)), imageLoad(bodies, ivec2(body_velocity, number)).xyz,
-                     imageLoad(bodies, ivec2(body_slower, number)).xyz,
-                     imageLoad(bodies, ivec2(body_spin, number)).xyz);
+    return RigidBody(
+        imageLoad(bodies, ivec2(body_position, number)).xyz, imageLoad(bodies, ivec2(body_remainder, number)).xyz,
+        imageLoad(bodies, ivec2(body_turn, number)), imageLoad(bodies, ivec2(body_velocity, number)).xyz,
+        imageLoad(bodies, ivec2(body_slower, number)).xyz, imageLoad(bodies, ivec2(body_spin, number)).xyz);
 }
 
 void store_body(int number, RigidBody body) {

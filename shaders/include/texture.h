@@ -2,7 +2,9 @@
 #ifndef DRAPE_TEXTURE_H
 #define DRAPE_TEXTURE_H
 
-layout(set = 0, binding = 6, std430) readonly buffer Textures { uint texels[]; };  // two each: three half floats, linear
+layout(set = 0, binding = 6, std430) readonly buffer Textures {
+    uint texels[];
+};  // two each: three half floats, linear
 
 vec3 texel_at(uint first, ivec2 size, ivec2 at) {
     ivec2 inside = clamp(at, ivec2(0), size - 1);

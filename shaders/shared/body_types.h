@@ -24,7 +24,7 @@ const int body_last_velocity = 6, body_last_spin = 7;
 const int body_texels = 8;
 
 struct BodyMovePush {
-    vec4 gravity;      // xyz: m/s^2; w: the substep, s
+    vec4 gravity;  // xyz: m/s^2; w: the substep, s
     int body_count;
     int first;         // the substep's first record of the scene's first list of colliders
     int list_count;    // lists of colliders
@@ -37,8 +37,8 @@ struct BodyMovePush {
 
 struct BodyStrikePush {
     int body_count;
-    int begins;    // 1: the sums begin with this substep
-    float unit;    // N s of a unit of the cloth's impulses
+    int begins;  // 1: the sums begin with this substep
+    float unit;  // N s of a unit of the cloth's impulses
     int unused;
 };
 

@@ -9,7 +9,7 @@
 namespace drape {
 namespace {
 
-std::vector<std::string> errors_of(const std::string& text) {
+std::vector<std::string> errors_of_seams(const std::string& text) {
     std::vector<std::string> texts;
     for (const SceneError& error : read_scene_text(text, "s").errors)
         texts.push_back(std::to_string(error.line) + ": " + error.pointer + ": " + error.message);
@@ -17,7 +17,7 @@ std::vector<std::string> errors_of(const std::string& text) {
 }
 
 TEST(SeamRules, TellWhatCannotBeSewn) {
-    EXPECT_EQ(errors_of(R"({"cloths": [{"name": "a", "grid": [5, 5]}, {"name": "b", "grid": [5, 9]},
+    EXPECT_EQ(errors_of_seams(R"({"cloths": [{"name": "a", "grid": [5, 5]}, {"name": "b", "grid": [5, 9]},
  {"name": "c", "grid": [5, 5], "placement": {"origin": [0, -1.01, 0]}}],
 "seams": [{"a": {"cloth": "a", "edge": "right"}, "b": {"cloth": "b", "edge": "left"}},
  {"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "c", "edge": "top"}},
@@ -33,21 +33,27 @@ TEST(SeamRules, TellWhatCannotBeSewn) {
 
 TEST(SeamRules, TellWhatSeamsDoNotGoWith) {
     const auto with = [](const std::string& of_a, const std::string& of_b, const std::string& of_scene) {
-        return errors_of(R"({"cloths": [{"name": "a", "grid": [5, 5])" + of_a +
-                         R"(}, {"name": "b", "grid": [5, 5], "placement": {"origin": [0, -1, 0]})" + of_b + "}]" +
-                         of_scene +
-                         ",\n"
-                         R"("seams": [{"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "top"}}]})");
+        return errors_of_seams(
+            R"({"cloths": [{"name": "a", "grid": [5, 5])" + of_a +
+            R"(}, {"name": "b", "grid": [5, 5], "placement": {"origin": [0, -1, 0]})" + of_b + "}]" + of_scene +
+            ",\n"
+            R"("seams": [{"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "top"}}]})");
     };
-    using Texts = std::vector<std::string>;
-    EXPECT_EQ(with("", "", ""), Texts{});
-    EXPECT_EQ(with(R"(, "self_collision": true)", "", ""),
-              Texts{"2: /seams: expected no seams where cloths have self_collision: contact does not know them yet"});
+    using SeamTexts = std::vector<std::string>;
+    EXPECT_EQ(with("", "", ""), SeamTexts{});
+    EXPECT_EQ(
+        with(R"(, "self_collision": true)", "", ""),
+        SeamTexts{"2: /seams: expected no seams where cloths have self_collision: contact does not know them yet"});
+    EXPECT_EQ(
+        with("", "", R"(, "solver": {"method": "line"}, "colliders": {"spheres": [{"mass": 9, "center": [9, 0, 0]}]})"),
+        SeamTexts{"2: /seams: expected no seams beside a body with a mass: what a seam evens out, the body would "
+                  "not get back"});
     EXPECT_EQ(with("", "", R"(, "forces": true)"),
-              Texts{"2: /seams: expected no seams beside forces: what a seam transmits is not told yet"});
-    EXPECT_EQ(with(R"(, "pins": [{"edge": "bottom"}])", R"(, "pins": [{"corner": "top_left", "release": 1}])", ""),
-              Texts{"2: /seams: expected one pin alone where it moves or lets go, got 2 at the sewn particle [0, 4] of "
-                    "\"a\""});
+              SeamTexts{"2: /seams: expected no seams beside forces: what a seam transmits is not told yet"});
+    EXPECT_EQ(
+        with(R"(, "pins": [{"edge": "bottom"}])", R"(, "pins": [{"corner": "top_left", "release": 1}])", ""),
+        SeamTexts{"2: /seams: expected one pin alone where it moves or lets go, got 2 at the sewn particle [0, 4] of "
+                  "\"a\""});
 }
 
 }  // namespace
