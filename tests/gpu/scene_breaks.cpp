@@ -48,6 +48,7 @@ void never_released(SceneDescription& scene) {
 void no_self_collision(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
 }
+void never_sewn(SceneDescription& scene) { scene.seams.clear(); }
 void never_cut(SceneDescription& scene) {
     scene.cutters.clear();
     for (Cloth& cloth : scene.cloths) cloth.tear.reset();
@@ -90,6 +91,9 @@ const std::vector<SceneBreak> breaks{
     {"curtain", "drawn", "key-framed pins stay", 60, pins_stay},
     {"curtain", "stretch", "springs a thousand times too soft", 30, springs_a_thousand_times_too_soft},
     {"curtain", "uncrossed", "no self-collision", 140, no_self_collision},
+    {"cushion", "penetration", "no collision", 70, no_collision},
+    {"cushion", "stretch", "springs a thousand times too soft", 60, springs_a_thousand_times_too_soft},
+    {"cushion", "supported", "never sewn", to_the_end, never_sewn},
     {"cut_flag", "uncrossed", "no self-collision", 42, no_self_collision},
     {"cut_in_two", "uncrossed", "no self-collision", 80, no_self_collision},
     {"flag", "torque", "no lift", 60, no_lift},
