@@ -130,9 +130,13 @@ TEST(ConformanceScenes, HaveEveryShaderOfEveryKindOfStep) {
     for (const Case& each : all_cases())
         for (const Step& step : kernel_steps(SimulationModel(each.scene->scene), {each.kernel.kernel}))
             shaders.insert(shader_of(step));
+    // Bodies write the colliders that later steps read, where single steps read what the host wrote: twin_bodies_test
+    // compares whole frames of theirs.
+    const std::set<std::string_view> compared_elsewhere{"body_move.comp", "body_strike.comp"};
     for (const StepRow& row : step_rows())
         for (const KernelRow& kernel : row.kernels)
-            EXPECT_TRUE(shaders.contains(std::string(kernel.shader))) << kernel.shader;
+            EXPECT_NE(shaders.contains(std::string(kernel.shader)), compared_elsewhere.contains(kernel.shader))
+                << kernel.shader;
 }
 
 TEST(StepBounds, AreByKindAndHaveAReason) {

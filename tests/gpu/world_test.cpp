@@ -62,6 +62,10 @@ SceneDescription turned(SceneDescription scene) {
         turn(collider.path);
     }
     for (DirectionalLight& light : scene.lights) turn(light.direction);
+    for (Cutter& cutter : scene.cutters) {
+        for (Vec3& corner : cutter.triangle) turn(corner);
+        turn(cutter.path);
+    }
     if (scene.camera) turn(scene.camera->position), turn(scene.camera->target);
     return scene;
 }
