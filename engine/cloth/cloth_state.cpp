@@ -103,12 +103,11 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Shaders see these fields as images and, where they are `buffered`, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-/// Returns the rows of the table before the cells.
+/// Returns the rows of the table up to the bending at rest.
 std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
-    static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
-                      &integer = layout_of<glsl::uint>();
+    static const auto &vector = layout_of<glsl::vec4>(), &integer = layout_of<glsl::uint>();
     return {
         {Field::position, "position", stored, vector, state, always, particles,
          [](Context c) { return bytes_of_list(c.cloth.position); }},
@@ -163,6 +162,16 @@ std::vector<FieldRow> motion_rows() {
         {Field::rest_shape, "rest shape", image, vector, constant, rests_bent, particles,
          [](Context c) { return bytes_of_list(c.cloth.rest_shape()); }},
         {Field::bend_targets, "bend targets", image, vector, frame, rests_bent, target_list},
+    };
+}
+
+/// Returns the rows of the table from the masses on.
+std::vector<FieldRow> other_rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    static const auto &vector = layout_of<glsl::vec4>(), &scalar = layout_of<float>(),
+                      &integer = layout_of<glsl::uint>(), &sizes = layout_of<glsl::uvec4>();
+    return {
         {Field::mass_share, "mass share", image, scalar, constant, masked, particles, share_of_mass},
         {Field::cells, "cells", image, integer, constant, masked, cells, cell_bits},
         {Field::air, "air", image, integer, constant, windy_and_masked, particles,
@@ -170,16 +179,6 @@ std::vector<FieldRow> motion_rows() {
         {Field::tear_limits, "tear limits", image, vector, constant,
          [](Context c) { return !c.cloth.tear_limits.empty(); }, particles,
          [](Context c) { return bytes_of_list(c.cloth.tear_limits); }},
-    };
-}
-
-/// Returns the rows of the table from the tensions on.
-std::vector<FieldRow> other_rows() {
-    using enum FieldLife;
-    using enum FieldView;
-    static const auto &scalar = layout_of<float>(), &integer = layout_of<glsl::uint>(),
-                      &sizes = layout_of<glsl::uvec4>();
-    return {
         {Field::tension_row, "tension row", stored, scalar, state, tense<0>, particles},
         {Field::tension_column, "tension column", stored, scalar, state, tense<1>, particles},
         {Field::tension_shear_down_right, "tension shear down-right", stored, scalar, state, tense<2>, particles},

@@ -146,7 +146,7 @@ TEST(VulkanReflection, counts_locations_from_vertices_to_fragments) {
     EXPECT_EQ(vulkan::reflect(test_shader("varyings.vert"), "varyings.vert").varying_locations, 69u);
     EXPECT_EQ(vulkan::reflect(test_shader("triangle.vert"), "triangle.vert").varying_locations, 0u);
     const ReflectedModule cloth = vulkan::reflect(vulkan::spirv_module("cloth.frag"), "cloth.frag");
-    EXPECT_EQ(cloth.varying_locations, 13u + 2 * glsl::light_limit);
+    EXPECT_EQ(cloth.varying_locations, 14u + 2 * glsl::light_limit);
     EXPECT_EQ(interface_module().varying_locations, 0u);
 }
 
