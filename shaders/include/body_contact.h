@@ -118,7 +118,8 @@ SHARED bool near_plane(RigidBody body, BodyConstants constants, ColliderRecord p
     precise float way = sqrt(ordered_dot(body.velocity, body.velocity)) * step;
     precise float motion = sqrt(ordered_dot(carried, carried));
     // A body that turns may strike with an end by whose speed others move: its step's turn is bounded by its size.
-    return gap < way + motion + constants.size.w;
+    precise float reach = way + motion + constants.size.w;
+    return gap < reach;
 }
 
 /// Returns 1 for a body whose motion planes changed, else 0.

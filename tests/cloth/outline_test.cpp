@@ -164,7 +164,7 @@ TEST(OutlineTest, WhatDoesNotFitIsSaid) {
     EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"size\": [1, 1]")), HasSubstr("expected size or outline, got both"));
     EXPECT_THAT(error_of(outlined(disc, 0.05, ", \"rest\": \"start\"")), HasSubstr("rest or outline"));
     EXPECT_THAT(error_of(outlined("M0 0L1", 0.05)), HasSubstr("expected a number at character 7 of the path"));
-    EXPECT_THAT(error_of(outlined("", 0.05)), HasSubstr("a path that goes around something"));
+    EXPECT_THAT(error_of(outlined("M0 0", 0.05)), HasSubstr("a path that goes around something"));
     EXPECT_THAT(error_of(outlined("M0 0H1Z", 0.05)), HasSubstr("a path that goes around something"));
     EXPECT_THAT(error_of(outlined("M0 0L1 1 2 2Z", 0.05)), HasSubstr("half of a cell"));
     EXPECT_THAT(error_of(outlined(disc, 1e-5)), HasSubstr("at most 16000000 particles"));
