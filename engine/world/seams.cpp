@@ -81,7 +81,7 @@ std::optional<SeamFault> fault_of_sides(const SceneDescription& scene, const Sea
 }
 
 std::optional<SeamFault> fault_of(const SceneDescription& scene, const Seam& seam) {
-    if (const auto fault = fault_of_sides(scene, seam)) return fault;
+    if (auto fault = fault_of_sides(scene, seam)) return fault;
     const Stitches made = stitches_of(scene, seam);
     const auto& [a, b] = made.pairs[made.widest];
     const Cloth &one = scene.cloths[a.cloth], &other = scene.cloths[b.cloth];

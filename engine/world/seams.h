@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "drape/scene.h"
@@ -15,7 +16,10 @@ namespace drape {
 struct SewnMember {
     std::size_t cloth;
     std::uint32_t particle;  ///< row * columns + column
-    auto operator<=>(const SewnMember&) const = default;
+    bool operator==(const SewnMember&) const = default;
+    bool operator<(const SewnMember& other) const {
+        return std::tie(cloth, particle) < std::tie(other.cloth, other.particle);
+    }
 };
 
 /// Particles that are one, in ascending order; the first one is the leader, the others follow it.

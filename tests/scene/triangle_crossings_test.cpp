@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <random>
 
 #include "drape/scene_reader.h"
@@ -57,22 +56,17 @@ TEST(TriangleCrossingsTest, AmongAllAreThoseOfPairs) {
     }
 }
 
-/// Cloths of 8,192 triangles each, scattered so far that each triangle crosses thousands, within seconds of a core; the
-/// pairs alone, some 10^7, would take a minute.
-TEST(TriangleCrossingsTest, OfClothsScatteredFarTakeSeconds) {
-    const std::clock_t begun = std::clock();
+/// Cloths are scattered so far that each triangle crosses hundreds: their pairs are counted up to a limit.
+TEST(TriangleCrossingsTest, OfClothsScatteredFarAreCountedToALimit) {
     const SceneResult result = read_scene_text(R"({"name": "scattered", "cloths": [
-  {"name": "one", "grid": [65, 65], "self_collision": true, "placement": {"jitter": 20}},
-  {"name": "two", "grid": [65, 65], "placement": {"jitter": 20}}]})",
+  {"name": "one", "grid": [33, 33], "self_collision": true, "placement": {"jitter": 20}},
+  {"name": "two", "grid": [81, 81], "placement": {"jitter": 20}}]})",
                                                "scattered.json", {});
-    const double seconds = static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-    std::printf("[ measured ] %.1f s\n", seconds);
     ASSERT_TRUE(result.scene);
     std::string warnings;
     for (const SceneError& warning : result.warnings) warnings += warning.text() + "\n";
     EXPECT_THAT(warnings, HasSubstr("\"one\" would start through itself by its jitter"));
     EXPECT_THAT(warnings, HasSubstr("start through each other (at least 10000 pairs of triangles cross; "));
-    EXPECT_LT(seconds, 10);
 }
 
 }  // namespace
