@@ -1,11 +1,14 @@
 #include "streams.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <string>
 
 #include "base/output_error.h"
@@ -30,6 +33,17 @@ void print_data(std::string_view text) {
     const int error = errno;
     if (error == EPIPE) throw ReaderGone();
     throw system_error_at("write to", "stdout", error);
+}
+
+void create_file(const std::string& path, std::string_view text) {
+    std::FILE* file = std::fopen(path.c_str(), "wx");
+    if (!file && errno == EEXIST) throw OutputError(fmt::format("'{}' exists already: nothing was written", path));
+    if (!file) throw OutputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const int error = errno;
+    if (std::fclose(file) == 0 && whole) return;
+    std::filesystem::remove(path);
+    throw OutputError(fmt::format("cannot write '{}': {}", path, std::strerror(whole ? errno : error)));
 }
 
 void print_message(std::string_view text) {

@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 
 #include "base/output_error.h"
 #include "base/printable_text.h"
@@ -15,6 +11,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/sequence_file.h"
 #include "scene/scene_node.h"
+#include "scene/scene_text_file.h"
 
 namespace drape {
 namespace {
@@ -32,11 +29,6 @@ SceneResult failed(SceneError error) {
     SceneResult result;
     result.errors.push_back(std::move(error));
     return result;
-}
-
-std::string too_large(std::size_t size) {
-    return fmt::format("expected a scene of at most {} bytes, got {}{}", scene_file_byte_limit,
-                       size > scene_file_byte_limit + 1 ? "" : "at least ", size);
 }
 
 std::string failure_text(const SceneResult& result) {
@@ -64,7 +56,7 @@ std::string SceneError::text() const {
 
 SceneResult read_scene_text(std::string_view text, const std::string& file_name, std::span<const std::string> overrides,
                             const std::string& folder) {
-    if (text.size() > scene_file_byte_limit) return failed({file_name, 0, 0, "", too_large(text.size())});
+    if (const std::string fault = size_fault(text.size()); !fault.empty()) return failed({file_name, 0, 0, "", fault});
     SceneDocument document(text, file_name);
     if (document.errors().empty())
         for (const std::string& override_text : overrides) document.apply_override(override_text);
@@ -86,26 +78,14 @@ SceneResult read_scene_text(std::string_view text, const std::string& file_name,
 }
 
 SceneResult read_scene(const std::string& path, std::span<const std::string> overrides) {
-    const auto unreadable = [&] {
-        SceneResult result = failed({path, 0, 0, "", fmt::format("cannot read: {}", std::strerror(errno))});
+    TextFile file = read_text_file(path);
+    if (!file.error.empty()) {
+        SceneResult result = failed({path, 0, 0, "", file.error});
         result.unreadable = true;
         return result;
-    };
-    const auto close = [](std::FILE* file) { std::fclose(file); };
-    const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-    if (!file) return unreadable();
-    // This reads to a byte over the limit rather than asking for the size, which pipes and devices do not have.
-    std::string text;
-    std::array<char, 65536> chunk;
-    while (text.size() <= scene_file_byte_limit) {
-        const std::size_t wanted = std::min(chunk.size(), scene_file_byte_limit + 1 - text.size());
-        const std::size_t count = std::fread(chunk.data(), 1, wanted, file.get());
-        text.append(chunk.data(), count);
-        if (count < wanted) break;
     }
-    if (std::ferror(file.get()) != 0) return unreadable();
-    SceneResult result = read_scene_text(text, path, overrides, scene_folder(path));
-    result.text = std::move(text);
+    SceneResult result = read_scene_text(file.text, path, overrides, scene_folder(path));
+    result.text = std::move(file.text);
     return result;
 }
 

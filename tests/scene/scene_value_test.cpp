@@ -446,7 +446,7 @@ TEST(SceneFile, UnreadableIsNotASceneError) {
 TEST(SceneFile, RefusesMoreThanItsLimit) {
     const SceneResult endless = read_scene("/dev/zero");
     ASSERT_EQ(endless.errors.size(), 1u);
-    EXPECT_EQ(endless.errors[0].text(), "/dev/zero: expected a scene of at most 16777216 bytes, got at least 16777217");
+    EXPECT_EQ(endless.errors[0].text(), "/dev/zero: expected a file of at most 16777216 bytes, got at least 16777217");
     EXPECT_FALSE(endless.unreadable);
     std::string padded = R"({"cloths": [{}]})";
     padded.resize(scene_file_byte_limit, ' ');

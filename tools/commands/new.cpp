@@ -2,12 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
-#include "base/output_error.h"
 #include "base/printable_text.h"
 #include "options.h"
 #include "program.h"
@@ -31,18 +27,6 @@ const SceneTemplate& template_of(const std::string& name) {
                                                  : fmt::format("did you mean '{}'?", nearest)));
 }
 
-/// Never replaces a file, and leaves none half-written.
-void create(const std::string& path, std::string_view text) {
-    std::FILE* file = std::fopen(path.c_str(), "wx");
-    if (!file && errno == EEXIST) throw OutputError(fmt::format("'{}' exists already: nothing was written", path));
-    if (!file) throw OutputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    const int error = errno;
-    if (std::fclose(file) == 0 && whole) return;
-    std::filesystem::remove(path);
-    throw OutputError(fmt::format("cannot write '{}': {}", path, std::strerror(whole ? errno : error)));
-}
-
 std::string template_list() {
     std::string text;
     for (const SceneTemplate& each : scene_templates()) text += fmt::format("  {:<9}{}\n", each.name, each.summary);
@@ -56,7 +40,7 @@ ExitCode run(const std::string& name, const std::string& output) {
         return ExitCode::ok;
     }
     const std::string path = output.empty() ? name + ".json" : output;
-    create(path, scene.text);
+    create_file(path, scene.text);
     print_message(fmt::format("{0}\nNext: drape render {0} -o {1}", printable(path),
                               printable((std::filesystem::path("out") / std::filesystem::path(path).stem()).string())));
     return ExitCode::ok;
