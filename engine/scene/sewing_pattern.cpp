@@ -1,11 +1,9 @@
 #include "scene/sewing_pattern.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -14,38 +12,22 @@
 #include "input/svg_path.h"
 #include "scene/scene_node.h"
 #include "scene/scene_text_file.h"
-#include "scene/scene_value.h"
+#include "scene/sewing_panels.h"
 
 namespace drape {
 namespace {
 
-using Point = std::array<double, 2>;
-
 /// A pattern may have this many panels, and a panel this many edges: more than any garment.
 constexpr std::size_t most_panels = 1000, most_edges = 10'000;
-
-struct PatternEdge {
-    Point from{}, to{};   ///< m
-    std::string segment;  ///< of SVG path data: what leads from one to the other
-    double length = 0;    ///< m
-};
-
-struct PatternPanel {
-    std::string name;
-    std::vector<PatternEdge> edges;
-    Placement placement;
-};
 
 struct Units {
     double metre = 100;  ///< units in a metre
     bool relative = true;
 };
 
-std::string path_point(const Point& p) { return fmt::format("{:.9g} {:.9g}", p[0], p[1]); }
-
 /// Returns a control point of an edge, m. A relative one has the edge as its first axis, of length 1, and the second
 /// axis a quarter turn against the clock from it.
-Point control_point(const Point& given, const PatternEdge& edge, const Units& units) {
+PatternPoint control_point(const PatternPoint& given, const PatternEdge& edge, const Units& units) {
     if (!units.relative) return {given[0] / units.metre, given[1] / units.metre};
     const double dx = edge.to[0] - edge.from[0], dy = edge.to[1] - edge.from[1];
     return {edge.from[0] + given[0] * dx - given[1] * dy, edge.from[1] + given[0] * dy + given[1] * dx};
@@ -57,7 +39,7 @@ bool read_curve(const SceneNode& params, std::size_t count, char letter, const U
     if (!params.open_array(fmt::format("an array of {} control points", count), count, count)) return false;
     edge.segment = letter;
     for (std::size_t i = 0; i < count; ++i) {
-        Point given{};
+        PatternPoint given{};
         if (!params.element(i).read(std::span<double>(given), "a control point [x, y]", any_number)) return false;
         edge.segment += path_point(control_point(given, edge, units)) + " ";
     }
@@ -93,7 +75,7 @@ bool read_curvature(const SceneNode& node, const Units& units, PatternEdge& edge
     edge.segment = "L" + path_point(edge.to);
     if (!node || node.value()->isNull()) return true;
     if (node.value()->isArray()) {
-        Point given{};
+        PatternPoint given{};
         if (!node.read(std::span<double>(given), "a control point [x, y]", any_number)) return false;
         edge.segment = "Q" + path_point(control_point(given, edge, units)) + " " + path_point(edge.to);
         return true;
@@ -120,17 +102,17 @@ double edge_length(const PatternEdge& edge) {
     const auto curves = input::read_path("M" + path_point(edge.from) + edge.segment, 1e-5 * std::max(chord, 1e-3));
     if (curves.empty()) return chord;
     double sum = 0;
-    const std::vector<Point>& points = curves[0].points;
+    const std::vector<PatternPoint>& points = curves[0].points;
     for (std::size_t i = 1; i < points.size(); ++i)
         sum += std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
     // A curve's last point stands for its first one where they meet, and a straight edge may be closed by none.
     return std::max(sum, chord);
 }
 
-std::optional<std::vector<Point>> read_vertices(const SceneNode& node, const Units& units) {
+std::optional<std::vector<PatternPoint>> read_vertices(const SceneNode& node, const Units& units) {
     if (!node) return node.fail_expected("the panel's vertices"), std::nullopt;
     if (!node.open_array("an array of 3 to 10000 vertices", 3, most_edges)) return {};
-    std::vector<Point> vertices(node.size());
+    std::vector<PatternPoint> vertices(node.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (!node.element(i).read(std::span<double>(vertices[i]), "a vertex [x, y]", any_number)) return {};
         for (double& x : vertices[i]) x /= units.metre;
@@ -139,7 +121,7 @@ std::optional<std::vector<Point>> read_vertices(const SceneNode& node, const Uni
 }
 
 /// Reads the edges, each of which begins where the one before it ends.
-bool read_edges(const SceneNode& node, const std::vector<Point>& vertices, const Units& units,
+bool read_edges(const SceneNode& node, const std::vector<PatternPoint>& vertices, const Units& units,
                 std::vector<PatternEdge>& edges) {
     if (!node) return node.fail_expected("the panel's edges");
     if (!node.open_array("an array of 2 to 10000 edges", 2, most_edges)) return false;
@@ -199,7 +181,7 @@ std::optional<PatternPanel> read_panel(const SceneNode& node, const std::string&
     if (!node.member("translation").read(translation) || !node.member("rotation").read(rotation)) return {};
     panel.placement = placement_of(translation, rotation, units);
     const auto vertices = read_vertices(node.member("vertices"), units);
-    if (!vertices || !read_edges(node.member("edges"), *vertices, units, panel.edges)) return {};
+    if (!vertices || !read_edges(node.member("edges"), *vertices, units, panel.loops.emplace_back())) return {};
     return panel;
 }
 
@@ -216,69 +198,41 @@ bool read_units(const SceneNode& properties, Units& units) {
     return true;
 }
 
-std::string array_text(std::span<const double> numbers) {
-    std::string text;
-    for (const double x : numbers)
-        text += fmt::format("{}{:.9g}", text.empty() ? "" : ", ", std::abs(x) < 1e-12 ? 0 : x);
-    return "[" + text + "]";
-}
-
-std::string cloth_text(const PatternPanel& panel, const PatternOptions& options) {
-    std::string path = "M" + path_point(panel.edges[0].from);
-    for (const PatternEdge& edge : panel.edges) path += " " + edge.segment;
-    const Placement& placement = panel.placement;
-    return fmt::format(R"(    {{
-      "name": "{}", "fabric": "{}",
-      "outline": {{"spacing": {}, "path": "{} Z"}},
-      "placement": {{"origin": {}, "u": {}, "v": {}}}
-    }})",
-                       panel.name, options.fabric, options.spacing, path, array_text(placement.origin),
-                       array_text(placement.u), array_text(placement.v));
-}
-
-std::string side_text(const PatternPanel& panel, const PatternEdge& edge) {
-    double around = 0;
-    for (const PatternEdge& each : panel.edges) around += each.length;
-    return fmt::format(R"({{"cloth": "{}", "from": {}, "to": {}{}}})", panel.name, array_text(edge.from),
-                       array_text(edge.to), edge.length > around / 2 ? R"(, "way": "longer")" : "");
-}
-
 /// Reads one end of a stitch: the side of a seam.
-bool read_end(const SceneNode& node, const std::map<std::string, PatternPanel>& panels, std::string& side) {
+bool read_end(const SceneNode& node, const std::vector<PatternPanel>& panels, PatternSide& side) {
     std::string name;
     const SceneNode panel = node.member("panel"), edge = node.member("edge");
     if (!panel) return panel.fail_expected("the name of a panel");
     if (!panel.read(name)) return false;
-    const auto found = panels.find(name);
-    if (found == panels.end()) return panel.fail_expected("the name of a panel");
+    while (side.panel < panels.size() && panels[side.panel].name != name) ++side.panel;
+    if (side.panel == panels.size()) return panel.fail_expected("the name of a panel");
     std::uint32_t number = 0;
     if (!edge) return edge.fail_expected("the number of an edge");
-    if (!edge.read(number, 0, static_cast<std::uint32_t>(found->second.edges.size() - 1))) return false;
-    side = side_text(found->second, found->second.edges[number]);
+    if (!edge.read(number, 0, static_cast<std::uint32_t>(panels[side.panel].loops[0].size() - 1))) return false;
+    side.first = number;
     return true;
 }
 
 /// Reads the stitches. A third element of one, which says which sides of the cloth face each other, is passed over.
-bool read_stitches(const SceneNode& stitches, const std::map<std::string, PatternPanel>& panels, double close,
-                   std::vector<std::string>& seams) {
+bool read_stitches(const SceneNode& stitches, const std::vector<PatternPanel>& panels,
+                   std::vector<PatternSeam>& seams) {
     if (stitches && !stitches.open_array("an array of at most 4096 stitches", 0, 4096)) return false;
     bool fits = true;
     for (std::size_t i = 0; stitches && i < stitches.size(); ++i) {
         const SceneNode stitch = stitches.element(i);
-        std::string a, b;
-        fits = stitch.open_array("a stitch: an array of two edges", 2, 3) && read_end(stitch.element(0), panels, a) &&
-               read_end(stitch.element(1), panels, b) && fits;
-        seams.push_back(fmt::format("    {{\"a\": {},\n     \"b\": {}, \"close\": {}}}", a, b, close));
+        PatternSeam& seam = seams.emplace_back();
+        fits = stitch.open_array("a stitch: an array of two edges", 2, 3) &&
+               read_end(stitch.element(0), panels, seam.a) && read_end(stitch.element(1), panels, seam.b) && fits;
     }
     return fits;
 }
 
 /// Reads the panels, by name.
-bool read_panels(const SceneNode& nodes, const Units& units, std::map<std::string, PatternPanel>& panels) {
+bool read_panels(const SceneNode& nodes, const Units& units, std::vector<PatternPanel>& panels) {
     if (!nodes || !nodes.value()->isObject() || nodes.value()->empty() || nodes.value()->size() > most_panels)
         return nodes.fail_expected(fmt::format("an object of 1 to {} panels, by name", most_panels));
     for (const std::string& name : nodes.value()->getMemberNames())
-        if (auto panel = read_panel(nodes.member(name), name, units)) panels.emplace(name, std::move(*panel));
+        if (auto panel = read_panel(nodes.member(name), name, units)) panels.push_back(std::move(*panel));
     return panels.size() == nodes.value()->size();
 }
 
@@ -286,22 +240,11 @@ bool read_panels(const SceneNode& nodes, const Units& units, std::map<std::strin
 void make_scene(const SceneNode& root, const PatternOptions& options, PatternResult& result) {
     const SceneNode pattern = root.member("pattern");
     Units units;
-    std::map<std::string, PatternPanel> panels;
-    std::vector<std::string> cloths, seams, meshes;
-    if (!read_units(root.member("properties"), units) || !read_panels(pattern.member("panels"), units, panels) ||
-        !read_stitches(pattern.member("stitches"), panels, options.close, seams))
-        return;
-    for (const auto& [name, panel] : panels) cloths.push_back(cloth_text(panel, options));
-    for (const std::string& body : options.bodies) meshes.push_back("{\"file\": " + drape::quoted(body) + "}");
-    result.panels = cloths.size();
-    result.seams = seams.size();
-    // Sewing takes its time, and the cloth two seconds more to come to rest.
-    result.scene = fmt::format("{{\n  \"time\": {{\"frames\": {}}},\n  \"cloths\": [\n{}\n  ]",
-                               std::ceil(60 * (options.close + 2)), fmt::join(cloths, ",\n"));
-    if (!seams.empty()) result.scene += fmt::format(",\n  \"seams\": [\n{}\n  ]", fmt::join(seams, ",\n"));
-    if (!meshes.empty())
-        result.scene += fmt::format(",\n  \"colliders\": {{\"meshes\": [{}]}}", fmt::join(meshes, ", "));
-    result.scene += "\n}\n";
+    std::vector<PatternPanel> panels;
+    std::vector<PatternSeam> seams;
+    if (read_units(root.member("properties"), units) && read_panels(pattern.member("panels"), units, panels) &&
+        read_stitches(pattern.member("stitches"), panels, seams))
+        write_pattern_scene(panels, seams, options, result);
 }
 
 }  // namespace
@@ -323,6 +266,7 @@ PatternResult read_sewing_pattern_text(std::string_view text, const std::string&
 }
 
 PatternResult read_sewing_pattern(const std::string& path, const PatternOptions& options) {
+    if (path.ends_with(".obj") || path.ends_with(".OBJ")) return read_uv_pattern(path, options);
     const TextFile file = read_text_file(path);
     if (file.error.empty()) return read_sewing_pattern_text(file.text, path, options);
     PatternResult result;

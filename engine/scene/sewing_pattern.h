@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ struct PatternResult {
     std::string scene;               ///< JSON; empty exactly when there are errors
     std::vector<SceneError> errors;  ///< in the order of the text
     std::size_t panels = 0, seams = 0;
-    bool unreadable = false;  ///< the file could not be read at all
+    std::optional<double> metres_per_unit;  ///< of a mesh: how large a unit of its texture is
+    bool unreadable = false;                ///< the file could not be read at all
 };
 
 /// Makes a scene of a pattern in GarmentCode's JSON (Korosteleva and Sorkine-Hornung 2023, "GarmentCode: Programming
@@ -31,7 +33,13 @@ struct PatternResult {
 /// to an edge or absolute. What else the file says is not looked at. Never throws for anything in the text.
 PatternResult read_sewing_pattern_text(std::string_view text, const std::string& file_name,
                                        const PatternOptions& options);
-/// Makes the same of a file.
+/// Makes a scene of a mesh in OBJ's format whose texture vertices lay it out flat: every island of the texture becomes
+/// a panel, and rims of islands that are one on the mesh are sewn. The areas of mesh and islands say how large a unit
+/// of the texture is; a panel starts where its flat shape is nearest to the mesh. Throws OutputError where the file
+/// cannot be read.
+PatternResult read_uv_pattern(const std::string& path, const PatternOptions& options);
+
+/// Makes a scene of a file, as these do: of a mesh where its name ends in .obj, else of GarmentCode's JSON.
 PatternResult read_sewing_pattern(const std::string& path, const PatternOptions& options);
 
 }  // namespace drape

@@ -31,6 +31,8 @@ ExitCode run(Options options) {
     const std::string path =
         options.output.empty() ? std::filesystem::path(options.path).stem().string() + "_scene.json" : options.output;
     create_file(path, result.scene);
+    if (result.metres_per_unit)
+        print_message(fmt::format("A unit of the texture is {:.4g} m.", *result.metres_per_unit));
     print_message(
         fmt::format("{0}: {1} panels, {2} seams\nNext: drape check {0}", printable(path), result.panels, result.seams));
     return ExitCode::ok;
@@ -40,17 +42,20 @@ ExitCode run(Options options) {
 
 void add_pattern(Program& program) {
     const auto options = std::make_shared<Options>();
-    CLI::App& command = program.add("pattern", "Make a scene of a sewing pattern, as GarmentCode writes it",
-                                    R"text(
-Every panel becomes a cloth with an outline, every stitch a seam, which draws its sides together. The scene is there to
-go on with: colors, contact, and pins where nothing holds the clothes.
+    CLI::App& command =
+        program.add("pattern", "Make a scene of a sewing pattern: GarmentCode's JSON, or a mesh with flat islands",
+                    R"text(
+Every panel becomes a cloth with an outline, every stitch a seam, which draws its sides together. Of a mesh (.obj) every
+island of its texture becomes a panel; what is one on the mesh is sewn. The scene is there to go on with: colors,
+contact, and pins where nothing holds the clothes.
 
 Examples:
   drape pattern t_shirt.json --body figure.obj -o my_t_shirt.json
   drape pattern t_shirt.json --spacing 0.02 --fabric jersey -o -
 )text",
-                                    [=] { return run(*options); });
-    add_required_file(command, "PATTERN", "The pattern, a JSON file", options->path);
+                    [=] { return run(*options); });
+    add_required_file(command, "PATTERN", "The pattern: a JSON file, or an .obj file with texture vertices",
+                      options->path);
     add_option(command, "-o,--output", "FILE",
                "The scene, which must not be there yet, or - for stdout; default: PATTERN_scene.json", options->output);
     add_option(command, "--spacing", "METRES", "Between particles, about; default: 0.015",
