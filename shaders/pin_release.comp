@@ -14,13 +14,14 @@
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;  // the positions lack the last substep's displacement
 CLOTH_CONSTANTS(ReleasePush)
+#include "include/state_store.h"
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
-layout(set = 0, binding = 1, rgba32f) uniform writeonly image2D position_out;
+VECTOR_OUT(1, position_out);
 layout(set = 0, binding = 2, std430) readonly buffer PinnedParticles { PinnedParticle pinned_particles[]; };
 layout(set = 0, binding = 3, std430) readonly buffer PinMotions { PinMotion pin_motions[]; };
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_in;
-layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D displacement_out;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D displacement_remainder;
+VECTOR_OUT(6, displacement_out);
+VECTOR_OUT(7, displacement_remainder);
 layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 layout(constant_id = 24) const bool carries_to_release = false;
@@ -76,7 +77,7 @@ void main() {
     vec4 position = imageLoad(position_in, index.xy);
     bool holds = motion.held.x != 0.0f;
     if (holds == (position.w == 0.0f)) return;
-    imageStore(position_out, index.xy, vec4(position.xyz, holds ? 0.0f : rest.w));
+    STORE_IN_COLUMNS(position_out, index.xy, push.grid.x, vec4(position.xyz, holds ? 0.0f : rest.w))
     if (second_order) imageAtomicMax(line_control, ivec2(control_hold, cloth), line_hold_release);
     if (holds) return;
     vec3 displacement = imageLoad(displacement_in, index.xy).xyz;
@@ -86,7 +87,7 @@ void main() {
     precise vec3 now = position.xyz;
     if (advance) now = now + displacement;
     precise vec3 velocity_step = pin_target(motion, motion.held.z != 0.0f ? now : rest.xyz) - displacement;
-    imageStore(displacement_out, index.xy, vec4(displacement, release_mark(surplus)));
-    imageStore(displacement_remainder, index.xy,
-               vec4(release_remainder(velocity_step, rest.w, surplus, pull, push.reach), 0.0f));
+    STORE_IN_COLUMNS(displacement_out, index.xy, push.grid.x, vec4(displacement, release_mark(surplus)))
+    vec4 remainder = vec4(release_remainder(velocity_step, rest.w, surplus, pull, push.reach), 0.0f);
+    STORE_IN_COLUMNS(displacement_remainder, index.xy, push.grid.x, remainder)
 }

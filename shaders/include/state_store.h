@@ -58,6 +58,9 @@ struct StateTriple {
              imageStore(name, placed(texel), vec4(value, 0.0f, 0.0f, 0.0f)))
 #define STORE_IN_COLUMNS(name, texel, columns, value) \
     STORE_BY(name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x] = value, imageStore(name, texel, value))
+#define LOAD_VECTOR(result, name, texel)                                                 \
+    STORE_BY(result = name##_vectors.name[placed(texel).y * vector_pitch() + (texel).x], \
+             result = imageLoad(name, placed(texel)))
 #define LOAD_IN_COLUMNS(result, name, texel, columns)                                     \
     STORE_BY(result = name##_vectors.name[(texel).y * vector_pitch(columns) + (texel).x], \
              result = imageLoad(name, texel))

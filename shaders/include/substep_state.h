@@ -23,7 +23,7 @@ STATE_OUT(5, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
 STATE_OUT(7, displacement_remainder_out);
 layout(constant_id = 23) const bool windy = false;
-layout(set = 0, binding = 8, rgba32f) uniform readonly image2D wind_force;
+VECTOR_OF(readonly, 8, wind_force);  // by its view, so that no stage has more than 8 images
 
 void advance_position(ivec2 texel, vec4 position, vec3 displacement) {
     CompensatedSum advanced = compensated_add(position.xyz, displacement, LOAD(position_remainder_in, texel).xyz);
@@ -42,6 +42,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
 
 /// Returns the force on the particle of a texel, N; w: its drag, N/m.
 vec4 force_on(ivec2 texel) {
-    if (windy) return LOAD(wind_force, texel);
-    return vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    vec4 force = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (windy) LOAD_VECTOR(force, wind_force, texel)
+    return force;
 }
