@@ -13,6 +13,8 @@
 #include "include/shadow_map.h"
 #include "include/plane.h"
 layout(constant_id = 25) const bool shadowed = false;
+layout(constant_id = 2) const bool has_ground_shade = false;
+layout(set = 0, binding = 5, rgba32f) uniform readonly imageBuffer ground_shade;
 #include "include/floor.h"
 #include "include/picture_tiles.h"
 #include "include/tone.h"

@@ -30,6 +30,7 @@ struct RasterPass::Targets {
     Handle depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
     Handle shadow_map, shadow_depth, shadow_rows;  ///< invalid without a shadow
+    Handle ground_shade;                           ///< invalid without it
 };
 
 namespace {
@@ -46,6 +47,14 @@ std::string shadow_skip_reason(const SceneDescription& scene, const RasterOption
     const auto casts = [](const ColliderDraw& draw) { return draw.casts_shadow; };
     if (scene.cloths.empty() && std::ranges::none_of(collider_draws(scene.colliders, {}), casts))
         return "the scene has nothing that casts one";
+    return {};
+}
+
+std::string ground_shade_skip_reason(bool has_floor, const SceneDescription& scene, const RasterOptions& options) {
+    if (!options.ground_shade) return "switched off";
+    if (!has_floor) return "no floor is drawn";
+    const auto bounded = [](const Collider& body) { return !special(body.shape).plane; };
+    if (scene.cloths.empty() && std::ranges::none_of(scene.colliders, bounded)) return "nothing stands above the floor";
     return {};
 }
 
@@ -76,6 +85,10 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
     bodies_.has_alpha = scene.image.alpha;
     bodies_.has_floor = floor && !bodies_.has_alpha;
     if (floor) bodies_.colliders.erase(bodies_.colliders.begin() + static_cast<std::ptrdiff_t>(*floor));
+    bodies_.shade_skip_reason = ground_shade_skip_reason(bodies_.has_floor, scene, options);
+    if (bodies_.shade_skip_reason.empty())
+        bodies_.shade.emplace(pipelines_.compute, ground_map(scene.colliders[*floor], frame_view_.extent()),
+                              bodies_.colliders, options.cut);
     make_pipelines(device, scene, options);
     make_compute_pipelines(options.cut);
 }
@@ -152,6 +165,7 @@ void RasterPass::make_compute_pipelines(bool cut) {
     pipelines_.encoding = &pipelines_.compute.get("encode.comp", [this](std::string_view name) {
         if (name == "has_floor") return std::uint32_t{bodies_.has_floor};
         if (name == "has_alpha") return std::uint32_t{bodies_.has_alpha};
+        if (name == "has_ground_shade") return std::uint32_t{bodies_.shade.has_value()};
         if (name == "shadowed") return std::uint32_t{casts_shadow() && bodies_.has_floor};
         if (name == "sampled") return std::uint32_t{is_sampled()};
         return name == "strip_length" ? pipelines_.compute.strip_length() : tiles_.constant(name);
@@ -229,6 +243,11 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
         add_shadow(graph, targets, kept);
     } else {
         graph.skip("shadow", shadow_skip_reason_);
+    }
+    if (bodies_.shade) {
+        targets.ground_shade = bodies_.shade->add(graph, cloths);
+    } else {
+        graph.skip("ground shade", bodies_.shade_skip_reason);
     }
     add_tiles(graph, targets, kept);
     add_raster(graph, targets, kept);
@@ -394,6 +413,7 @@ Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) con
             setup.read(targets.tiles, Access::compute_read, "tiles");
             if (casts_shadow() && bodies_.has_floor)
                 setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
+            if (targets.ground_shade.valid()) setup.read(targets.ground_shade, Access::compute_read, "ground_shade");
             picture = setup.write(picture, Access::compute_write, "pixels");
         },
         [this](graph::PassContext& context) {
@@ -415,6 +435,7 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
         Collider& drawn = bodies[body.collider - (bodies_.has_floor ? 1 : 0)];
         drawn = placed(drawn, body);
     }
+    if (bodies_.shade) bodies_.shade->write(pool, slot, std::span(bodies).first(bodies_.colliders.size()), time);
     const std::vector<glsl::ColliderInstance> instances =
         collider_instances(bodies, frame_view_.plane_extent_at(time), time);
     const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, frame_view_.camera_at(time));

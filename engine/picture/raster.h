@@ -16,6 +16,7 @@
 #include "graph/executor.h"
 #include "picture/collider_mesh.h"
 #include "picture/fixtures.h"
+#include "picture/ground_shade.h"
 #include "picture/picture_tiles.h"
 #include "picture/raster_cloth.h"
 #include "picture/raster_frame.h"
@@ -29,6 +30,7 @@ namespace drape {
 
 struct RasterOptions {
     bool shadow = true;
+    bool ground_shade = true;  ///< the floor is darker where cloth and bodies stand between it and the sky
     PictureView view;
     bool cut = false;     ///< some cloth has cut vertices: their pipelines are made
     bool masked = false;  ///< some cloth has spring shares: their pipelines are made
@@ -123,6 +125,8 @@ class RasterPass {
         bool deforms;                                ///< some mesh does: its corners are told for every frame
         bool has_floor = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
         bool has_alpha = false;  ///< neither that nor the backdrop is drawn
+        std::optional<GroundShade> shade{};  ///< on the floor
+        std::string shade_skip_reason{};     ///< why there is none
     };
     struct AllPipelines {
         Pipelines compute;

@@ -8,6 +8,7 @@
 #include "cloth/texels.h"
 #include "include/tone.h"
 #include "picture/camera.h"
+#include "picture/ground_shade.h"
 #include "picture/picture_places.h"
 #include "world/collider_pose.h"
 #include "world/up.h"
@@ -135,6 +136,10 @@ void write_floor(const SceneDescription& scene, const Collider& collider, const 
     // The floor hides nothing that lies on it, which rounding may put slightly below it.
     constants.above_floor = texel(normal, floor.eye.y * 1e-4 - dot(normal, pose.center));
     floor.fade = texel(local(sum(extent.center, pose.center, -1)), extent.half_side);
+    const GroundMap map = ground_map(collider, picture.extent);
+    const Vec3 start = map.place(pose.center);
+    const double texels = static_cast<double>(glsl::ground_shade_side) / glsl::ground_side;
+    floor.shade = texel({texels * start[0], texels * start[1], texels / map.column_side}, 0.0);
     write_floor_light(scene, collider, normal, floor);
     if (!scene.lights.empty()) write_floor_shadow(scene, picture.extent, {x, normal, z, pose.center}, floor);
 }

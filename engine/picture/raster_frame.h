@@ -45,6 +45,7 @@ class FrameView {
     PlaneExtent plane_extent_at(double time) const;
     /// Returns which of the scene's colliders is the floor.
     std::optional<std::size_t> floor() const { return floor_; }
+    const BoundingSphere& extent() const { return picture_.extent; }
 
   private:
     glsl::FrameConstants constants_from(const Camera& camera) const;

@@ -1,9 +1,19 @@
 // The floor is a plane that keeps still below the camera. Everything else is clipped where it goes below the floor
 // (clip_distance), so the floor shows wherever nothing else does. The encoding pass draws it together with the
 // backdrop: once per pixel, without attributes to interpolate, and, since it is flat, with light that was summed in
-// advance.
+// advance. Its shade counts for all light but the first's, which has a shadow map.
 #ifndef DRAPE_FLOOR_H
 #define DRAPE_FLOOR_H
+
+/// Returns the share of the sky's light that reaches a place on the floor past what is above it (ground_shade.comp).
+float open_to_sky(FloorConstants plane, vec2 place) {
+    vec2 at = clamp(plane.shade.xy + plane.shade.z * place - 0.5, vec2(0.0), vec2(ground_shade_side - 2));
+    ivec2 corner = ivec2(at);
+    vec2 part = at - vec2(corner);
+    vec4 four = imageLoad(ground_shade, corner.y * ground_shade_side + corner.x);
+    vec2 two = mix(four.xy, four.zw, part.y);
+    return mix(two.x, two.y, part.x);
+}
 
 /// Returns the radiance of a pixel that nothing covers: the floor's or, above its horizon, the backdrop's.
 vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
@@ -25,7 +35,8 @@ vec3 floor_radiance(FloorConstants plane, vec2 pixel, vec3 behind) {
         texel = clamp(texel, vec2(-8.0), vec2(shadow_map_size + 8));
         lit = light_arriving(vec3(texel, dot(plane.shadow[2].xyz, there)), vec2(plane.steady.w, plane.first.w));
     }
-    vec3 radiance = lined(plane.steady.xyz + lit * plane.first.xyz, lines);
+    float open = has_ground_shade ? open_to_sky(plane, place) : 1.0;
+    vec3 radiance = lined(open * plane.steady.xyz + lit * plane.first.xyz, lines);
     return seen ? mix(radiance, behind, faded(away)) : behind;
 }
 

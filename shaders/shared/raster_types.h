@@ -17,6 +17,11 @@ const int shadow_map_size = 512;
 /// The shadow map's depth, 0 to 1, spans eight radii of the scene; a texel is two radii over the number of texels.
 const float shadow_texels_per_depth = 4.0f * float(shadow_map_size);
 
+/// Columns along a side of the map of what stands above the floor (include/ground_columns.h), a multiple of 8, and
+/// texels along a side of the map of its shade.
+const int ground_side = 96;
+const int ground_shade_side = 2 * ground_side;
+
 /// The floor (include/floor.h) in its own coordinates, in which y is its normal and a place on it is (x, 0, z).
 struct FloorConstants {
     vec4 ray[3];     // xyz: direction of sight at a pixel's place (x, y): [0] + x [1] + y [2], of any length
@@ -25,6 +30,7 @@ struct FloorConstants {
     vec4 fade;       // xyz: centre of its fade into the backdrop; w: radius, m
     vec4 steady;     // xyz: radiance without the first light's; w: depth in the map from texel to texel along x
     vec4 first;      // xyz: radiance by the first light, where it arrives; w: depth from texel to texel along y
+    vec4 shade;      // x, y: place of (0, 0, 0) in the map of its shade; z: texels of that per metre; w unused
 };
 
 /// Constants that all draws of a frame share.
@@ -62,6 +68,11 @@ struct ClothPush {
 
 struct ClothTilesPush {
     uvec4 grid;  // columns, rows, triangles; w unused
+};
+
+struct GroundColumnsPush {
+    uvec4 grid;    // columns, rows, triangles; parts that an edge of a triangle is divided into
+    vec4 rows[3];  // from a place in the world: column x, y of the map, and height above the floor, in columns' sides
 };
 
 /// Number of colours of a heat map, at even places from its low end to its high end.

@@ -139,7 +139,7 @@ inline PixelPosition pixel(const SceneDescription& scene, const Vec3& point) {
 struct Shot {
     std::uint32_t samples = 1;
     double time = 0;
-    RasterOptions options{.shadow = false};
+    RasterOptions options{.shadow = false, .ground_shade = false};
     std::vector<graph::Remark>* skipped = nullptr;
     const vulkan::Device* device = &test::gpu().device;
 };

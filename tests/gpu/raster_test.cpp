@@ -321,7 +321,8 @@ TEST_F(Raster, FirstLightCastsShadows) {
     const Shading shading{floor_color, {0, 1, 0}, {0, 1, 0}, scene.ambient, scene.ambient_ground, 0, 1, 0};
     const Vec3 lit = shading.pixel_color(scene.lights), dark = shading.pixel_color({});
     for (const std::uint32_t samples : {1u, 4u}) {
-        const Picture picture = draw(scene, {cloth}, {.samples = samples, .options = {.shadow = true}});
+        const Picture picture =
+            draw(scene, {cloth}, {.samples = samples, .options = {.shadow = true, .ground_shade = false}});
         for (const double x : {-0.25, -0.07, 0.13, 0.25}) {
             expect_color(picture.at(pixel(scene, {x, 0, 0.13})), dark, "under the cloth");
             expect_color(picture.at(pixel(scene, {x, 0, 0.37})), lit, "before the cloth");
@@ -370,7 +371,7 @@ TEST_F(Raster, TheFloorIsThePlaneAsTriangles) {
     SceneDescription moving = scene;  // moves to where it is: only a plane without a path is a floor
     moving.colliders[0].path.keys = {{0, {}, {}}, {1, {}, {}}};
     for (const bool shadow : {false, true}) {
-        const Shot shot{.samples = 4, .options = {.shadow = shadow, .shift = {0.3, -0.2}}};
+        const Shot shot{.samples = 4, .options = {.shadow = shadow, .ground_shade = false, .shift = {0.3, -0.2}}};
         const Picture floor = draw(scene, {cloth}, shot), triangles = draw(moving, {cloth}, shot);
         std::vector<double> expected;
         int unequal = 0;

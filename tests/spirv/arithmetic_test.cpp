@@ -63,10 +63,10 @@ Arithmetic arithmetic_of(const SpirvModule& module) {
     return found;
 }
 
-/// Compute modules are the simulation; vertex and fragment modules only draw, and so do those of two passes.
+/// Compute modules are the simulation; vertex and fragment modules only draw, and so do those of some passes.
 bool simulates(const SpirvModule& module) {
     return module.name.ends_with(".comp") && !module.name.starts_with("encode") &&
-           !module.name.starts_with("cloth_tiles");
+           !module.name.starts_with("cloth_tiles") && !module.name.starts_with("ground_");
 }
 
 TEST(ArithmeticTest, NoSumOrProductOfTheSimulationMayBeContracted) {
