@@ -73,6 +73,14 @@ void for_each_number(const SceneDescription& scene, State& body, const Visit& vi
     visit(before + "_potential_energy_j", body.potential_energy);
 }
 
+/// Adds the momentum of cloths and bodies together.
+void add_momentum(FrameValues& values, const FinishedFrame& frame) {
+    Vec3 momentum{};
+    for (const ClothStatistics& cloth : frame.statistics) momentum = plus(momentum, cloth.momentum);
+    for (const BodyState& body : frame.bodies) momentum = plus(momentum, body.momentum);
+    for (std::size_t k = 0; k < 3; ++k) values[fmt::format("momentum_{}_kg_m_s", "xyz"[k])] = momentum[k];
+}
+
 std::optional<double> energy(const FrameValues& values) {
     const auto found = values.find("energy_j");
     return found == values.end() ? std::nullopt : std::optional(found->second);
@@ -122,6 +130,7 @@ FrameValues frame_values(const SceneDescription& scene, const FinishedFrame& fra
         kinetic += body.kinetic_energy;
         potential += body.potential_energy;
     }
+    if (!frame.bodies.empty()) add_momentum(values, frame);
     for (const ClothStatistics& cloth : cloths) {
         if (!cloth.penetration) continue;
         double& deepest = values.try_emplace("penetration_m", *cloth.penetration).first->second;

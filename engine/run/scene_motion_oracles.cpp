@@ -7,7 +7,9 @@
 
 #include "run/scene_oracles.h"
 #include "shared/collider_types.h"
+#include "world/body_pose.h"
 #include "world/gust.h"
+#include "world/mass_properties.h"
 #include "world/motion.h"
 #include "world/start.h"
 #include "world/surface_distance.h"
@@ -235,11 +237,59 @@ Verdict carried(const SceneRun& run, const Limits& limits) {
                         sphere_turn, worst, limits["lag"])};
 }
 
+/// Returns where the centre of mass of a body is in a frame, m.
+Vec3 center_of_mass(const SceneRun& run, std::size_t frame, std::size_t number) {
+    const BodyState& body = run.bodies[frame][number];
+    const Vec3 own = mass_properties(run.scene.colliders[body.collider].shape)->center;
+    return plus(body.position, rotate(rotation_of(body.turn), own));
+}
+
+bool has_body(const SceneRun& run, std::size_t number) {
+    return !run.bodies.empty() && number < run.bodies.front().size();
+}
+
+/// Until `until_frame`, when something may touch it, a body is on its parabola, to within `error` metres.
+Verdict body_flies(const SceneRun& run, const Limits& limits) {
+    const std::size_t number = limits.index("body"), last = std::min(limits.index("until_frame"), run.last_frame());
+    if (last == 0 || !has_body(run, number)) return {false, "there is no such frame or body"};
+    const Collider& body = run.scene.colliders[run.bodies[0][number].collider];
+    double worst = 0, fallen = 0;
+    for (std::size_t frame = 1; frame <= last; ++frame) {
+        const double t = run.time(frame);
+        const Vec3 way = plus(times(t, body.velocity), times(0.5 * t * t, gravity_at(run.scene, 0)));
+        const Vec3 moved = minus(center_of_mass(run, frame, number), center_of_mass(run, 0, number));
+        worst = std::max(worst, length(minus(moved, way)));
+        fallen = length(way);
+    }
+    return {worst <= limits["error"],
+            fmt::format("off by {:.2e} m after a way of {:.3f} m, allowed {:.2e} m", worst, fallen, limits["error"])};
+}
+
+/// After its lowest point a body rises to `least` to `most` of the height that it had fallen from its start.
+Verdict rebounds(const SceneRun& run, const Limits& limits) {
+    const std::size_t number = limits.index("body");
+    if (!has_body(run, number)) return {false, "there is no such body"};
+    std::vector<double> heights;
+    for (std::size_t frame = 0; frame < run.frames.size(); ++frame)
+        heights.push_back(about_up(run, center_of_mass(run, frame, number)));
+    // The first low point of those at which it turns, so that a second fall does not count.
+    std::size_t low = 0;
+    while (low + 1 < heights.size() && heights[low + 1] <= heights[low]) ++low;
+    const double fallen = heights.front() - heights[low];
+    const double risen =
+        *std::max_element(heights.begin() + static_cast<std::ptrdiff_t>(low), heights.end()) - heights[low];
+    const double share = fallen > 0 ? risen / fallen : 0;
+    return {share >= limits["least"] && share <= limits["most"],
+            fmt::format("falls {:.3f} m, is thrown up {:.4f} of that, allowed {} to {}", fallen, share, limits["least"],
+                        limits["most"])};
+}
+
 }  // namespace
 
 std::span<const SceneCheck> motion_checks() {
-    static constexpr SceneCheck checks[] = {{"falls", falls}, {"swing", swing},   {"torque", torque},
-                                            {"blown", blown}, {"mirror", mirror}, {"carried", carried}};
+    static constexpr SceneCheck checks[] = {{"falls", falls},           {"swing", swing},      {"torque", torque},
+                                            {"blown", blown},           {"mirror", mirror},    {"carried", carried},
+                                            {"body_flies", body_flies}, {"rebounds", rebounds}};
     return checks;
 }
 

@@ -25,6 +25,7 @@ Vec3 SceneRun::velocity_after(std::size_t frame, std::size_t cloth, std::size_t 
 SceneRun SceneRun::until(std::size_t last) const {
     const auto end = std::min(last + 1, frames.size());
     SceneRun part{scene, {frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(end)}, {}};
+    part.bodies.assign(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(std::min(last + 1, bodies.size())));
     std::ranges::copy_if(cuts, std::back_inserter(part.cuts), [&](const CutRecord& cut) { return cut.frame < end; });
     return part;
 }

@@ -52,6 +52,15 @@ std::string_view no_sphere(const SceneDescription& scene) {
     return std::ranges::any_of(scene.colliders, is_sphere) ? "" : "the scene has no sphere";
 }
 
+std::string_view no_body(const SceneDescription& scene) {
+    const auto has_mass = [](const Collider& collider) { return collider.mass.has_value(); };
+    return std::ranges::any_of(scene.colliders, has_mass) ? "" : "no collider has a mass";
+}
+
+std::string_view no_flying_body(const SceneDescription& scene) {
+    return gravity_changes(scene) ? no_steady_gravity(scene) : no_body(scene);
+}
+
 std::string_view no_wind(const SceneDescription& scene) { return scene.wind.blows() ? "" : "no wind blows"; }
 
 std::string_view no_steady_wind(const SceneDescription& scene) {
@@ -66,6 +75,7 @@ std::string_view no_relaxation(const SceneDescription& scene) {
 KeyText key(std::string_view name, std::string_view help) { return {name, help, {}, {}, {}, false}; }
 
 constexpr OracleLimit which_cloth{"cloth", "number of the cloth, from 0", true};
+constexpr OracleLimit which_body{"body", "number of the collider among those with a mass, from 0", true};
 constexpr OracleLimit from_frame{"from_frame", "first frame that counts", true};
 constexpr OracleLimit until_frame{"until_frame", "last frame that counts", true};
 
@@ -121,6 +131,16 @@ std::vector<OracleKind> kinds_of_motion() {
           until_frame,
           {"error", "largest distance from the closed form, metres"}},
          no_steady_gravity},
+        {"body_flies",
+         "Until something touches it, a body flies as gravity makes it.",
+         {which_body, until_frame, {"error", "largest distance of its centre of mass from the parabola, metres"}},
+         no_flying_body},
+        {"rebounds",
+         "A body that falls is thrown up again.",
+         {which_body,
+          {"least", "smallest height to which it then rises from its lowest point, in units of what it had fallen"},
+          {"most", "largest"}},
+         no_body},
         {"swing",
          "What gravity gives and damping leaves is there as motion at the fastest moment; without wind and contact.",
          {which_cloth,

@@ -54,6 +54,12 @@ void never_cut(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.tear.reset();
 }
 
+/// What cloth gives to bodies is lost: it is nothing to such a mass.
+void bodies_feel_no_cloth(SceneDescription& scene) {
+    for (Collider& collider : scene.colliders)
+        if (collider.mass) collider.mass = 1e6 * *collider.mass;
+}
+
 void pins_let_go(SimulationModel& model) {
     for (ClothModel& cloth : model.cloths)
         for (std::size_t particle = 0; particle < cloth.position.size(); ++particle)
@@ -120,6 +126,10 @@ const std::vector<SceneBreak> breaks{
     {"stack", "uncrossed", "no self-collision", 30, no_self_collision},
     {"swinging_blade", "uncrossed", "no self-collision", to_the_end, no_self_collision},
     {"torn_banner", "uncrossed", "no self-collision", to_the_end, no_self_collision},
+    {"trampoline", "penetration", "no collision", 50, no_collision},
+    {"trampoline", "stretch", "springs a thousand times too soft", 50, springs_a_thousand_times_too_soft},
+    {"trampoline", "body_flies", "gravity 1 % too strong", 24, gravity_one_percent_off},
+    {"trampoline", "rebounds", "bodies feel no cloth", 70, bodies_feel_no_cloth},
     {"twist", "pins_follow", "key-framed pins stay", 20, pins_stay},
     {"twist", "uncrossed", "no self-collision", 60, no_self_collision},
     {"two_cloths", "falls", "gravity 1 % too strong", 4, gravity_one_percent_off},

@@ -195,10 +195,15 @@ double time_of(const RunFolder& run, const Json::Value& frame) {
     return frame.asDouble() / std::max(run.manifest["frames"]["fps"].asDouble(), 1e-3);
 }
 
+/// What a line has of a frame's numbers that are named so: the largest of any cloth and of all together, that of all
+/// together, or the sum over bodies that cloth moves.
+enum class Of { worst, whole, bodies };
+
 struct Line {
     const char *plot, *unit;
     double factor;
     const char *name, *key;
+    Of of = Of::worst;
 };
 constexpr Line lines[] = {{"Stretch", "%", 100, "largest", "stretch_max"},
                           {"Stretch", "%", 100, "RMS", "stretch_rms"},
@@ -207,6 +212,12 @@ constexpr Line lines[] = {{"Stretch", "%", 100, "largest", "stretch_max"},
                           {"Energy", "J", 1, "potential", "potential_energy_j"},
                           {"Energy", "J", 1, "elastic", "elastic_energy_j"},
                           {"Energy", "J", 1, "total", "energy_j"},
+                          {"Momentum", "kg m/s", 1, "x, all", "momentum_x_kg_m_s", Of::whole},
+                          {"Momentum", "kg m/s", 1, "y, all", "momentum_y_kg_m_s", Of::whole},
+                          {"Momentum", "kg m/s", 1, "z, all", "momentum_z_kg_m_s", Of::whole},
+                          {"Momentum", "kg m/s", 1, "x, bodies", "momentum_x_kg_m_s", Of::bodies},
+                          {"Momentum", "kg m/s", 1, "y, bodies", "momentum_y_kg_m_s", Of::bodies},
+                          {"Momentum", "kg m/s", 1, "z, bodies", "momentum_z_kg_m_s", Of::bodies},
                           {"Penetration", "mm", 1000, "deepest", "penetration_m"},
                           {"Substeps and iterations", "per frame", 1, "substeps", "substeps"},
                           {"Substeps and iterations", "per frame", 1, "iterations", "iterations"},
@@ -214,16 +225,32 @@ constexpr Line lines[] = {{"Stretch", "%", 100, "largest", "stretch_max"},
                           {"Motion error, estimated", "mm/s", 1000, "error", "motion_error_m_s"},
                           {"Position error, estimated", "mm", 1000, "error", "position_error_m"}};
 
-/// In every frame the largest value of any cloth; no points where no cloth has the key.
+/// Returns what a line has of a frame; nothing: the frame has none of it.
+std::optional<double> value_of(const Json::Value& frame, const Line& line) {
+    const std::string key = line.key, of_a_cloth = "/" + key, of_a_body = "_" + key;
+    std::optional<double> found;
+    for (const std::string& member : frame.getMemberNames()) {
+        const double value = frame[member].asDouble();
+        switch (line.of) {
+            case Of::worst:
+                if (member == key || member.ends_with(of_a_cloth)) found = std::max(found.value_or(-INFINITY), value);
+                break;
+            case Of::whole:
+                if (member == key) found = value;
+                break;
+            case Of::bodies:
+                if (member.starts_with("body_") && member.ends_with(of_a_body)) found = found.value_or(0) + value;
+                break;
+        }
+    }
+    return found;
+}
+
 plot::Curve curve(const RunFolder& run, const std::string& name, const Line& line, std::size_t look, bool dashed) {
     plot::Curve result{.name = name, .look = look, .dashed = dashed};
-    const std::string of_a_cloth = std::string("/") + line.key;
-    for (const Json::Value& frame : run.manifest["statistics"]) {
-        double worst = -INFINITY;
-        for (const std::string& member : frame.getMemberNames())
-            if (member == line.key || member.ends_with(of_a_cloth)) worst = std::max(worst, frame[member].asDouble());
-        if (worst > -INFINITY) result.points.push_back({time_of(run, frame["frame"]), worst * line.factor});
-    }
+    for (const Json::Value& frame : run.manifest["statistics"])
+        if (const auto value = value_of(frame, line))
+            result.points.push_back({time_of(run, frame["frame"]), *value * line.factor});
     return result;
 }
 
