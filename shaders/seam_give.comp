@@ -9,9 +9,12 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SeamPush)
-layout(constant_id = 0) const bool sews_vectors = false;   // the forces or normals, else the motion
+layout(constant_id = 0) const bool sews_vectors = false;    // the forces or normals, else the motion
 layout(constant_id = 1) const bool sews_predicted = false;  // the motion with what rounding lost of it
 layout(constant_id = 2) const bool sews_touched = false;    // the motion with what contact writes
+layout(constant_id = 3) const bool sews_between = false;    // some of the particles lie between two places
+layout(constant_id = 4) const bool sews_closing = false;    // some seams close
+layout(constant_id = 5) const bool sews_leads = false;      // those between two places count by what they change
 layout(set = 0, binding = 0, std430) readonly buffer SewnParticles { SewnParticle sewn_particles[]; };
 layout(set = 0, binding = 1, std430) buffer SewnPlaces { SewnPlace sewn_places[]; };
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D position;
@@ -19,9 +22,14 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D displacement_remainder;
 layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_before;
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D wind_force;
+layout(set = 0, binding = 7, std430) readonly buffer SewnLeads { vec4 sewn_leads[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Openings { SeamOpening openings[]; };
+
+bool is_between(SewnParticle particle) { return sews_between && particle.between.x >= 0; }
 
 void give_vector(SewnParticle particle, int place) {
     vec4 own = imageLoad(wind_force, particle.at.xy), sum = sewn_places[place].vector;
+    if (is_between(particle)) own = own_force(own, particle.weights.w);
     if (particle.weights.z != 0.0f)
         sum = own;
     else if (push.stage == seam_normals)
@@ -31,35 +39,59 @@ void give_vector(SewnParticle particle, int place) {
     sewn_places[place].vector = sum;
 }
 
-void give_mean(SewnParticle particle, int place) {
+/// Returns where a particle's place is, before the substep or in it.
+vec3 place_of(SewnParticle particle, vec3 at) {
+    if (sews_closing) {
+        if (particle.between.z < 0) return at;
+        SeamOpening opening = openings[push.opening + particle.between.z];
+        return sewn_together(at, particle.gap.xyz, push.stage == seam_touched ? opening.left.y : opening.left.x);
+    }
+    return at;
+}
+
+void give_mean(SewnParticle particle, int own, int place) {
+    bool leads = particle.between.w == 1;
     float share = particle.weights.x;
+    // What is there moves as one already.
+    if (push.stage == seam_begun || push.stage == seam_released) share = leads ? 1.0f : 0.0f;
     vec4 moved = imageLoad(displacement, particle.at.xy), mean = sewn_places[place].displacement;
-    vec3 lost = imageLoad(displacement_remainder, particle.at.xy).xyz;
-    sewn_places[place].displacement =
-        vec4(sewn_mean(mean.xyz, moved.xyz, share), share == 1.0f ? moved.w : mean.w);
+    vec3 lost = imageLoad(displacement_remainder, particle.at.xy).xyz, way = moved.xyz;
+    if (sews_leads) {
+        if (is_between(particle)) way = sewn_lead(way, sewn_leads[own].xyz);
+    }
+    sewn_places[place].displacement = vec4(sewn_mean(mean.xyz, way, share), leads ? moved.w : mean.w);
     sewn_places[place].remainder = vec4(sewn_mean(sewn_places[place].remainder.xyz, lost, share), 0.0f);
-    if (share != 1.0f) return;
-    sewn_places[place].position = imageLoad(position, particle.at.xy);
+    if (!leads) return;
+    vec4 start = imageLoad(position, particle.at.xy);
+    sewn_places[place].position = vec4(place_of(particle, start.xyz), start.w);
     if (sews_touched) sewn_places[place].before = imageLoad(displacement_before, particle.at.xy);
 }
 
 /// `begun`: the place before any of the cloth's particles was counted; `farthest`: square of the farthest way so far.
+/// What lies between two places follows these: they themselves touch what it would.
 float give_touched(SewnParticle particle, int place, SewnPlace begun, int count, float farthest) {
+    if (is_between(particle)) return farthest;
     vec4 start = imageLoad(position, particle.at.xy), moved = imageLoad(displacement, particle.at.xy);
-    float way = sewn_way(moved.xyz, begun.displacement.xyz, start.xyz, begun.position.xyz);
+    vec3 from = place_of(particle, start.xyz);
+    float way = sewn_way(moved.xyz, begun.displacement.xyz, from, begun.position.xyz);
     if (count > 1 && !(way > farthest)) return farthest;
-    sewn_places[place].position = vec4(start.xyz, begun.position.w);
+    sewn_places[place].position = vec4(from, begun.position.w);
     sewn_places[place].displacement = moved;
     if (sews_touched) sewn_places[place].before = imageLoad(displacement_before, particle.at.xy);
     return way;
 }
 
 /// A cloth's particles at a place have the mass of all that are sewn there between them, so their mean is what the
-/// springs' impulses give to it.
-void give_solved(SewnParticle particle, int place) {
+/// springs' impulses give to it. Where some lie between two places, each one's change counts by its part in the mass.
+void give_solved(SewnParticle particle, int own, int place, SewnPlace begun) {
     vec4 mean = sewn_places[place].displacement;
     vec3 moved = imageLoad(displacement, particle.at.xy).xyz;
-    sewn_places[place].displacement = vec4(sewn_mean(mean.xyz, moved, particle.parts.x), mean.w);
+    if (sews_leads) {
+        if (is_between(particle)) moved = sewn_lead(moved, sewn_leads[own].xyz);
+    }
+    vec3 changed = sewn_change(mean.xyz, moved, begun.displacement.xyz, particle.parts.y);
+    bool changes = sews_between && particle.parts.w != 0.0f;
+    sewn_places[place].displacement = vec4(changes ? changed : sewn_mean(mean.xyz, moved, particle.parts.x), mean.w);
 }
 
 void main() {
@@ -74,11 +106,11 @@ void main() {
         if (sews_vectors)
             give_vector(particle, place);
         else if (sews_predicted)
-            give_mean(particle, place);
+            give_mean(particle, own + k, place);
         else if (push.stage == seam_touched)
             farthest = give_touched(particle, place, begun, count, farthest);
         else
-            give_solved(particle, place);
+            give_solved(particle, own + k, place, begun);
         ++k;
         if (k >= count) break;
     }

@@ -211,6 +211,9 @@ std::vector<FieldRow> other_rows() {
         {Field::sewn_particles, "sewn particles", buffer, layout_of<glsl::SewnParticle>(), constant,
          [](Context c) { return !c.cloth.sewn.empty(); }, [](Context c) { return FieldExtent{c.cloth.sewn.size()}; },
          sewn_list},
+        {Field::sewn_leads, "sewn leads", buffer, layout_of<glsl::vec4>(), frame,
+         [](Context c) { return lies_between(c.cloth.sewn); },
+         [](Context c) { return FieldExtent{c.cloth.sewn.size()}; }},
     };
 }
 

@@ -77,8 +77,9 @@ enum class Field : std::uint8_t {
     pinned_particles,  ///< particles of pins that move or let go
     pin_motions,       ///< motion of every such pin in every substep
     sewn_particles,    ///< ClothGeometry::sewn
+    sewn_leads,        ///< by entry of that list, m: by how much a particle between two places moves before this one
 };
-inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::sewn_particles) + 1;
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::sewn_leads) + 1;
 
 /// What a frame does beside simulating, since some fields exist for it alone.
 struct FrameNeeds {

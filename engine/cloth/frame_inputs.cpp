@@ -191,6 +191,7 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     const double frame_start = (static_cast<double>(frame) - 1) / scene.time.fps;
     const double h = 1.0 / (scene.time.fps * scene.solver.substeps);
     inputs.wind.clear();
+    inputs.openings.clear();
     inputs.colliders.clear();
     inputs.collider_sets = model.colliders_move ? scene.solver.substeps : 1;
     inputs.stiffness.clear();
@@ -222,6 +223,9 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
                 const Vec3 force = force_at(load, middle);
                 inputs.wind.push_back(row({force[0], force[1], force[2]}, 0, pressure_at(load, middle)));
             }
+        for (const double closed : model.closings)
+            inputs.openings.push_back(
+                {{static_cast<float>(opening_at(start, closed)), static_cast<float>(opening_at(end, closed))}});
         if (substep == 0 || model.colliders_move)
             for (const std::vector<KeptCollider>& list : model.kept_colliders)
                 for (std::size_t k = 0; k < list.size(); ++k) {

@@ -8,6 +8,7 @@
 
 #include "cloth/simulation_model.h"
 #include "shared/collider_types.h"
+#include "shared/seam_types.h"
 #include "world/motion.h"
 
 namespace drape {
@@ -38,6 +39,7 @@ struct FrameInputs {
     /// By member and substep, the wind, m/s; where gravity changes, the difference of gravity from the start, m/s^2; of
     /// each load of the member's cloths the force, N, and beside it the pressure, Pa. Empty without any of it.
     std::vector<glsl::vec4> wind;
+    std::vector<glsl::SeamOpening> openings;      ///< by substep, of each time of SimulationModel::closings
     std::vector<float> stiffness;                 ///< by cloth, the factor of its stiffness; empty: none changes
     std::vector<glsl::ColliderRecord> colliders;  ///< by substep, and within it list by list, in the scene's order
     std::uint32_t collider_sets = 1;         ///< number of substeps that have their own records; 1: all share one set

@@ -117,7 +117,7 @@ class Substep {
 class SewnSubstep {
   public:
     SewnSubstep(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
-        : model_(model), substep_(substep), steps_(steps) {
+        : model_(model), substep_(substep), opening_(static_cast<int>(substep * model.closings.size())), steps_(steps) {
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             parts_.emplace_back(model, cloth, substep, steps);
         taken_.resize(parts_.size());
@@ -128,6 +128,10 @@ class SewnSubstep {
         if (std::ranges::any_of(model_.cloths, &ClothModel::has_release)) hand_on(glsl::seam_released);
         for (Substep& part : parts_) part.wind();
         if (model_.windy && model_.method().iterates()) hand_on(glsl::seam_forces);
+        // Explicit steps count by what they change, so each has to know where it begins.
+        if (!model_.method().iterates() &&
+            std::ranges::any_of(model_.cloths, [](const ClothModel& cloth) { return lies_between(cloth.sewn); }))
+            hand_on(glsl::seam_begun);
         for (Substep& part : parts_) part.predict();
         hand_on(glsl::seam_predicted);
         for (std::uint32_t iteration = 0; iteration < parts_.front().iteration_count(); ++iteration)
@@ -144,15 +148,17 @@ class SewnSubstep {
   private:
     void add(StepKind kind, std::size_t cloth, int stage) {
         const auto count = static_cast<int>(model_.cloths[cloth].sewn.size());
-        if (count > 0) steps_.push_back({kind, cloth, substep_, 0, glsl::SeamPush{count, stage, 0, 0}});
+        if (count > 0) steps_.push_back({kind, cloth, substep_, 0, glsl::SeamPush{count, stage, opening_, 0}});
     }
     void hand_on(int stage) {
         for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_give, cloth, stage);
         for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_take, cloth, stage);
     }
-    /// Returns whether no two of a cloth's own particles are sewn to each other, so that it has what it gives.
+    /// Returns whether no two of a cloth's own particles are sewn to each other and none lies between places, so that
+    /// it has what it gives.
     bool is_alone(std::size_t cloth) const {
-        return std::ranges::all_of(model_.cloths[cloth].sewn, [](const Sewn& each) { return each.sewn.at.w == 1; });
+        return std::ranges::all_of(model_.cloths[cloth].sewn,
+                                   [](const Sewn& each) { return each.sewn.at.w == 1 && each.sewn.between.x < 0; });
     }
     void give(std::size_t cloth, int stage) {
         if (model_.cloths[cloth].sewn.empty()) return;
@@ -186,6 +192,7 @@ class SewnSubstep {
 
     const SimulationModel& model_;
     std::uint32_t substep_;
+    int opening_;
     std::vector<Step>& steps_;
     std::vector<Substep> parts_;
     std::size_t given_ = 0;           ///< how often a cloth has handed on what springs or contact did

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "base/vectors.h"
 #include "cloth/grid.h"
@@ -35,79 +36,199 @@ class Masses {
     std::map<std::size_t, Grid> grids_;
 };
 
-/// Returns the member whose motion is the place's: one that a pin holds, best one that moves it or lets it go, else the
-/// leader.
-std::size_t leading(const SceneDescription& scene, const SewnGroup& place) {
-    std::size_t leads = 0;
-    int best = 0;
-    for (std::size_t k = 0; k < place.size(); ++k) {
-        const auto pin = holding_pin(scene, place[k]);
-        if (!pin) continue;
-        const Pin& held = scene.cloths[place[k].cloth].pins[*pin];
-        const int rank = held.release || !held.path.keys.empty() ? 2 : 1;
+/// A particle at a station, or between two, as one of these sees it.
+struct Entry {
+    SewnMember member;
+    double weight = 1;
+    const SewnBetween* between = nullptr;  ///< null: it is at the station
+    bool operator<(const Entry& other) const { return member < other.member; }
+};
+
+/// What is known of a station beside its group.
+struct Station {
+    std::vector<Entry> entries;  ///< ascending
+    double mass = 0;             ///< kg
+    std::map<std::size_t, double> mass_by_cloth;
+    Vec3 start{}, velocity{};  ///< m, all gaps being closed; m/s
+    bool held = false;
+    std::size_t leads = 0;  ///< the entry whose motion is the station's
+};
+
+/// Returns the entry whose motion is the station's: of its group one that a pin holds, best one that moves it or lets
+/// it go, else the first.
+std::size_t leading(const SceneDescription& scene, const std::vector<Entry>& entries) {
+    std::size_t leads = entries.size();
+    int best = -1;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        if (entries[k].between) continue;
+        const auto pin = holding_pin(scene, entries[k].member);
+        int rank = 0;
+        if (pin) {
+            const Pin& held = scene.cloths[entries[k].member.cloth].pins[*pin];
+            rank = held.release || !held.path.keys.empty() ? 2 : 1;
+        }
         if (rank > best) best = rank, leads = k;
     }
     return leads;
 }
 
-/// Whose particles are asked for, and how the method moves them.
-struct Asked {
-    std::size_t cloth, place;
-    bool solves;
+/// All stations of a scene.
+class Stations {
+  public:
+    explicit Stations(const SceneDescription& scene)
+        : scene_(scene), sewing_(sewing_of(scene)), closings_(closing_times(scene)), masses_(scene) {
+        for (const SewnStation& each : sewing_.stations)
+            for (const SewnMember& member : each.group) stations_[index_of(each)].entries.push_back({member});
+        for (const SewnBetween& each : sewing_.between)
+            for (std::size_t k = 0; k < 2; ++k)
+                for (const SewnMember& member : each.group)
+                    stations_[each.stations[k]].entries.push_back({member, each.weights[k], &each});
+        for (auto& [index, station] : stations_) measure(sewing_.stations[index], station);
+    }
+
+    /// Adds a cloth's particles at each station.
+    void add(std::size_t cloth, bool solves, std::vector<Sewn>& all) {
+        for (const auto& [index, station] : stations_)
+            if (station.mass_by_cloth.contains(cloth)) add_station(index, {cloth, solves}, all);
+    }
+
+  private:
+    /// Whose particles are asked for, and how the method moves them.
+    struct Asked {
+        std::size_t cloth;
+        bool solves;
+    };
+    std::size_t index_of(const SewnStation& station) const {
+        return static_cast<std::size_t>(&station - sewing_.stations.data());
+    }
+    void measure(const SewnStation& sewn, Station& station);
+    void add_station(std::size_t index, const Asked& asked, std::vector<Sewn>& all);
+    Sewn sewn_of(const Entry& entry, std::size_t index, const Asked& asked);
+    /// Returns the mass, kg, that a cloth's particle has while its cloth alone is moved.
+    double carried(const Entry& entry, std::size_t station);
+    int opening_of(double close) const {
+        return close > 0 ? static_cast<int>(std::ranges::find(closings_, close) - closings_.begin()) : -1;
+    }
+
+    const SceneDescription& scene_;
+    Sewing sewing_;
+    std::vector<double> closings_;
+    Masses masses_;
+    std::map<std::size_t, Station> stations_;
 };
 
-/// Adds a cloth's particles at a place.
-void add_place(const SceneDescription& scene, const SewnGroup& group, const Asked& asked, Masses& masses,
-               std::vector<Sewn>& all) {
-    double total = 0, of_own = 0;
-    Vec3 momentum{};
-    for (const SewnMember& member : group) {
-        const double mass = masses.of(member);
-        total += mass;
-        if (member.cloth == asked.cloth) of_own += mass;
-        momentum = plus(momentum, times(mass, start_velocity(scene.cloths[member.cloth], member.particle)));
+void Stations::measure(const SewnStation& sewn, Station& station) {
+    std::ranges::sort(station.entries, [](const Entry& a, const Entry& b) { return a < b; });
+    Vec3 momentum{}, moment{};
+    for (const Entry& entry : station.entries) {
+        const double mass = entry.weight * masses_.of(entry.member);
+        station.mass += mass;
+        station.mass_by_cloth[entry.member.cloth] += mass;
+        momentum =
+            plus(momentum, times(mass, start_velocity(scene_.cloths[entry.member.cloth], entry.member.particle)));
+        moment = plus(moment, times(mass, unsewn_start(scene_, entry.member)));
+        station.held = station.held || (!entry.between && holding_pin(scene_, entry.member));
     }
-    const bool held =
-        std::ranges::any_of(group, [&](const SewnMember& member) { return holding_pin(scene, member).has_value(); });
-    const std::size_t leads = leading(scene, group);
-    const auto count = static_cast<int>(std::ranges::count(group, asked.cloth, &SewnMember::cloth));
-    const std::uint32_t columns = scene.cloths[asked.cloth].grid[0];
+    station.leads = leading(scene_, station.entries);
+    station.velocity = times(1 / station.mass, momentum);
+    // What closes keeps its centre of mass.
+    station.start = !station.held && sewn.close > 0 ? times(1 / station.mass, moment)
+                                                    : unsewn_start(scene_, station.entries[station.leads].member);
+}
+
+double Stations::carried(const Entry& entry, std::size_t index) {
+    const double mass = masses_.of(entry.member);
+    const auto share = [&](std::size_t at) {
+        const Station& station = stations_.at(at);
+        return station.mass * mass / station.mass_by_cloth.at(entry.member.cloth);
+    };
+    if (!entry.between) return share(index);
+    const auto& [group, stations, weights, close, seam] = *entry.between;
+    return weights[0] * share(stations[0]) + weights[1] * share(stations[1]);
+}
+
+Sewn Stations::sewn_of(const Entry& entry, std::size_t index, const Asked& asked) {
+    const Station& station = stations_.at(index);
+    const std::uint32_t columns = scene_.cloths[asked.cloth].grid[0], particle = entry.member.particle;
+    const double own = masses_.of(entry.member), all = asked.solves ? carried(entry, index) : own;
+    const auto single = [](double value) { return static_cast<float>(value); };
+    Sewn made{particle, {}, station.start, station.velocity, station.held, entry.weight * all / station.mass};
+    glsl::SewnParticle& sewn = made.sewn;
+    sewn.at = {static_cast<int>(particle % columns), static_cast<int>(particle / columns), static_cast<int>(index), 0};
+    sewn.between = {-1, 1, opening_of(sewing_.stations[index].close), 0};
+    sewn.weights = {0, single(masses_.inner(asked.cloth) / all), 0, single(entry.weight)};
+    sewn.parts = {0, single(own / station.mass_by_cloth.at(asked.cloth)), 0, 0};
+    if (entry.between) {
+        const auto& [group, stations, weights, close, seam] = *entry.between;
+        const std::size_t own_side = stations[0] == index ? 0 : 1;
+        const Station& other = stations_.at(stations[1 - own_side]);
+        const bool takes =
+            weights[own_side] > weights[1 - own_side] || (weights[own_side] == weights[1 - own_side] && own_side == 0);
+        sewn.between = {static_cast<int>(stations[1 - own_side]), takes ? 1 : 0, opening_of(close), 0};
+        sewn.parts.y = single(made.part);
+        sewn.parts.z = single(weights[1 - own_side] * all / other.mass);
+        made.start = plus(times(entry.weight, station.start), times(weights[1 - own_side], other.start));
+        made.velocity = plus(times(entry.weight, station.velocity), times(weights[1 - own_side], other.velocity));
+        made.held = station.held && other.held;
+        sewn.gap.w = single(weights[1 - own_side]);
+    }
+    if (sewn.between.z >= 0) {
+        const Vec3 start = unsewn_start(scene_, entry.member), gap = minus(start, made.start);
+        sewn.gap = {single(gap[0]), single(gap[1]), single(gap[2]), sewn.gap.w};
+        made.start = start;
+    }
+    return made;
+}
+
+void Stations::add_station(std::size_t index, const Asked& asked, std::vector<Sewn>& all) {
+    const Station& station = stations_.at(index);
+    const auto is_own = [&](const Entry& entry) { return entry.member.cloth == asked.cloth; };
+    const auto count = static_cast<int>(std::ranges::count_if(station.entries, is_own));
+    const bool some_between = std::ranges::any_of(
+        station.entries, [&](const Entry& entry) { return is_own(entry) && entry.between != nullptr; });
+    const bool by_one = asked.solves || station.held;
     double counted = 0, own_counted = 0;
-    for (std::size_t k = 0; k < group.size(); ++k) {
-        const double mass = masses.of(group[k]);
+    for (std::size_t k = 0; k < station.entries.size(); ++k) {
+        const Entry& entry = station.entries[k];
+        const double mass = entry.weight * masses_.of(entry.member);
         counted += mass;
-        if (group[k].cloth != asked.cloth) continue;
-        const bool is_first = own_counted == 0;
+        if (!is_own(entry)) continue;
+        Sewn made = sewn_of(entry, index, asked);
+        if (own_counted == 0) made.sewn.at.w = count;
         own_counted += mass;
-        const double share = asked.solves || held ? (k == leads ? 1 : 0) : mass / counted;
-        const double carried = asked.solves ? total * mass / of_own : mass;
-        glsl::SewnParticle sewn{};
-        sewn.at = {static_cast<int>(group[k].particle % columns), static_cast<int>(group[k].particle / columns),
-                   static_cast<int>(asked.place), is_first ? count : 0};
-        sewn.weights = {static_cast<float>(share), static_cast<float>(masses.inner(asked.cloth) / carried),
-                        k == 0 ? 1.0f : 0.0f, 0};
-        sewn.parts = {static_cast<float>(mass / own_counted), static_cast<float>(mass / of_own), 0, 0};
-        all.push_back(
-            {group[k].particle, sewn, sewn_start(scene, group), times(1 / total, momentum), held, carried / total});
+        made.sewn.between.w = k == station.leads ? 1 : 0;
+        made.sewn.weights.x = static_cast<float>(by_one ? (k == station.leads ? 1 : 0) : mass / counted);
+        made.sewn.weights.z = k == 0 ? 1.0f : 0.0f;
+        made.sewn.parts.x = static_cast<float>(mass / own_counted);
+        made.sewn.parts.w = some_between ? 1.0f : 0.0f;
+        all.push_back(made);
     }
 }
 
 }  // namespace
 
+bool lies_between(const std::vector<Sewn>& sewn) {
+    return std::ranges::any_of(sewn, [](const Sewn& each) { return each.sewn.between.x >= 0; });
+}
+
+std::vector<double> closing_times(const SceneDescription& scene) {
+    std::set<double> times;
+    for (const Seam& seam : scene.seams)
+        if (seam.close > 0) times.insert(seam.close);
+    return {times.begin(), times.end()};
+}
+
+double opening_at(double time, double closed) {
+    const double part = std::clamp(time / closed, 0.0, 1.0);
+    return 1 - part * part * (3 - 2 * part);
+}
+
 std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& cloth) {
     const Cloth* const first = scene.cloths.data();
     if (scene.seams.empty() || std::less<>()(&cloth, first) || !std::less<>()(&cloth, first + scene.cloths.size()))
         return {};
-    const auto own = static_cast<std::size_t>(&cloth - first);
-    const bool solves = named(scene.solver.method).iterates();
-    Masses masses(scene);
     std::vector<Sewn> all;
-    const std::vector<SewnGroup> places = sewn_groups(scene);
-    for (std::size_t at = 0; at < places.size(); ++at) {
-        const SewnGroup& place = places[at];
-        if (std::ranges::find(place, own, &SewnMember::cloth) == place.end()) continue;
-        add_place(scene, place, {own, at, solves}, masses, all);
-    }
+    Stations(scene).add(static_cast<std::size_t>(&cloth - first), named(scene.solver.method).iterates(), all);
     return all;
 }
 

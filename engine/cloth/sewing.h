@@ -8,16 +8,24 @@
 
 namespace drape {
 
-/// A particle of a cloth at a seam.
+/// A particle of a cloth at a place where it is sewn; one that lies between two places has an entry for each.
 struct Sewn {
     std::uint32_t particle;
     glsl::SewnParticle sewn;
-    Vec3 start;         ///< m: where the place starts
-    Vec3 velocity;      ///< m/s: the mean of its particles' at the start, by their masses
-    bool held;          ///< a pin holds one of them at the start
+    Vec3 start;         ///< m: where it starts
+    Vec3 velocity;      ///< m/s at the start: the mean of those at the place, by their masses
+    bool held;          ///< a pin holds the place at the start
     double part;        ///< what a step of it alone counts for the place
     glsl::vec4 kick{};  ///< m: what its cloth's loads change of its displacement before the start
 };
+
+/// Returns whether some of a cloth's sewn particles lie between two places.
+bool lies_between(const std::vector<Sewn>& sewn);
+/// Returns the times, s, at which seams of the scene have closed, ascending; empty: all are closed from the start on.
+std::vector<double> closing_times(const SceneDescription& scene);
+/// Returns what is left of a gap at a time, s: 1 at the start, 0 from `closed` on, with a speed that begins and ends at
+/// 0.
+double opening_at(double time, double closed);
 
 /// Returns the sewn particles of a cloth of the scene, those at one place one after the other; none where `cloth` is
 /// not one of the scene's own. By methods that solve for springs a cloth's particles at a place have the mass of all

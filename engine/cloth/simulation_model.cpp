@@ -65,7 +65,10 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
             model.name = fmt::format("{}/{}", member, model.name);
             model.member = member;
             model.collider_list += kept_colliders.size();
-            for (Sewn& each : model.sewn) each.sewn.at.z += static_cast<int>(sewn_count);
+            for (Sewn& each : model.sewn) {
+                each.sewn.at.z += static_cast<int>(sewn_count);
+                if (each.sewn.between.x >= 0) each.sewn.between.x += static_cast<int>(sewn_count);
+            }
             scene.cloths.push_back(one.scene.cloths[cloth]);
             scene.cloths.back().name = model.name;
         }
@@ -110,6 +113,7 @@ void SimulationModel::add_colliders() {
 
 void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
     for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) cloths.emplace_back(scene, cloth, options);
+    closings = closing_times(scene);
     for (const ClothModel& cloth : cloths)
         for (const Sewn& each : cloth.sewn)
             sewn_count = std::max(sewn_count, static_cast<std::size_t>(each.sewn.at.z) + 1);
@@ -134,9 +138,15 @@ void SimulationModel::share_kicks() {
         }
     for (ClothModel& cloth : cloths)
         for (const Sewn& each : cloth.sewn) {
+            if (each.sewn.between.y == 0) continue;
             cloth.scheme.starts.resize(cloth.position.size(), cloth.scheme.start);
             glsl::vec4& start = cloth.scheme.starts[each.particle];
-            const Vec3 more = minus(kicks[static_cast<std::size_t>(each.sewn.at.z)], vector(each.kick));
+            Vec3 whole = kicks[static_cast<std::size_t>(each.sewn.at.z)];
+            if (each.sewn.between.x >= 0) {
+                const double own = double{each.sewn.weights.w};
+                whole = plus(times(own, whole), times(1 - own, kicks[static_cast<std::size_t>(each.sewn.between.x)]));
+            }
+            const Vec3 more = minus(whole, vector(each.kick));
             start = texel(plus(vector(start), more), double{start.w});
         }
 }

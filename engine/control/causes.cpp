@@ -45,6 +45,14 @@ Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::S
         most.pins = std::max(
             most.pins, distance(pivot(before), pivot(now)) + turned(before.rotation, now.rotation, start.diagonal));
     }
+    // A seam that closes leads its particles as pins would.
+    for (const Sewn& each : cloth.sewn) {
+        if (each.sewn.between.z < 0) continue;
+        const double closed = model.closings[static_cast<std::size_t>(each.sewn.between.z)];
+        const glsl::vec4& gap = each.sewn.gap;
+        most.pins =
+            std::max(most.pins, length({gap.x, gap.y, gap.z}) * (opening_at(from, closed) - opening_at(to, closed)));
+    }
     for (const Collider& collider : model.scene.colliders) {
         if (!collider.moves()) continue;
         const ColliderPose before = collider_pose(collider, from), now = collider_pose(collider, to);
@@ -141,7 +149,8 @@ Causes::Causes(const SimulationModel& model) : model_(model) {
         starts_.back().upright = stands_upright(model, k);
     }
     led_apart_ = model.self_contact && !model.self_contact->to_part.empty();  // contact may lift such cloth
-    passive_ = !model.windy && !led_apart_ && std::ranges::none_of(model.scene.colliders, moves) &&
+    passive_ = !model.windy && !led_apart_ && model.closings.empty() &&
+               std::ranges::none_of(model.scene.colliders, moves) &&
                std::ranges::none_of(model.cloths, &ClothModel::has_motion);
     drives_.assign(1, std::vector<Drive>(starts_.size()));
     if (std::ranges::any_of(model.scene.cloths, is_stiffened)) work_ = kept_ = std::vector<double>(starts_.size());

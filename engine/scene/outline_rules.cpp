@@ -40,6 +40,16 @@ std::vector<OutlineCurve> curves_of(const SceneNode& node, const OutlineText& te
     return curves;
 }
 
+OutlineText text_of(const SceneNode& node) {
+    OutlineText text;
+    (void)node.member("path").read(text.path);
+    (void)node.member("file").read(text.file);
+    (void)node.member("element").read(text.element);
+    if (const SceneNode scale = node.member("scale")) (void)scale.read(text.scale.emplace(), positive);
+    (void)node.member("spacing").read(text.spacing, positive);
+    return text;
+}
+
 /// Makes the stiffness that of the stiffest spring, and the density that of the lightest cell, as maps do: no factor of
 /// a stiffness is above 1 then, and none of a density below.
 void scale_to_shapes(Cloth& cloth) {
@@ -64,12 +74,7 @@ bool take_outline(const Members& members, Cloth& cloth, PanelPoint& low) {
         if (const SceneNode other = members[key])
             return other.fail(fmt::format("expected {} or outline, got both", key));
     if (!members.all_fit()) return false;
-    OutlineText text;
-    (void)node.member("path").read(text.path);
-    (void)node.member("file").read(text.file);
-    (void)node.member("element").read(text.element);
-    if (const SceneNode scale = node.member("scale")) (void)scale.read(text.scale.emplace(), positive);
-    (void)node.member("spacing").read(text.spacing, positive);
+    const OutlineText text = text_of(node);
     if (text.path.empty() == text.file.empty()) return node.fail("expected exactly one of path and file");
     if (!text.element.empty() && text.file.empty())
         return node.member("element").fail("expected a file, whose element this is");
@@ -92,6 +97,15 @@ bool take_outline(const Members& members, Cloth& cloth, PanelPoint& low) {
     if (const std::string fault = panel_fault(cloth); !fault.empty()) return node.fail("expected " + fault);
     scale_to_shapes(cloth);
     return true;
+}
+
+PanelPoint outline_corner(const SceneNode& node) {
+    if (!node) return {};
+    PanelPoint low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    for (const OutlineCurve& curve : curves_of(node, text_of(node)))
+        for (const PanelPoint& point : curve.points)
+            for (std::size_t k = 0; k < 2; ++k) low[k] = std::min(low[k], point[k]);
+    return low;
 }
 
 bool find_point(const SceneNode& node, const Cloth& cloth, const PanelPoint& low, IndexBox& particles) {

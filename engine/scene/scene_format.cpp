@@ -277,22 +277,32 @@ const Object<Cloth> cloth{
 
 const Object<SeamSide> seam_side{
     "seam_side",
-    "A border of a cloth.",
+    "A border of a cloth's grid, or a piece of the rim of its outline, its holes or its grid.",
     {
         {"cloth", &SeamSide::cloth, text(), "Name of the cloth.", "the name of a cloth"},
-        {"edge", &SeamSide::edge, choice<SeamEdge>(seam_edge_spellings),
-         "All particles of a border: left is column 0, top is row 0.", "an edge: left, right, top or bottom"},
+        {"edge", &SeamSide::edge, optional(choice<SeamEdge>(seam_edge_spellings)),
+         "All particles of a border: left is column 0, top is row 0. Either this or from and to."},
+        {"from", &SeamSide::from, optional(two_numbers(any_number)),
+         "Metres, on the flat cloth: where the piece of the rim begins, as points of the outline have it, or from the "
+         "grid's corner. The nearest particle counts, which must be within half a cell."},
+        {"to", &SeamSide::to, optional(two_numbers(any_number)), "Where it ends."},
+        {"way", &SeamSide::way, choice<SeamWay>(seam_way_spellings), "The way round the rim from one to the other."},
     }};
 
 const Object<Seam> seam{
     "seam",
-    "Two borders that are one from the start on, of two cloths or of one, which then is a tube. They have as many "
-    "particles, which start in pairs within a thousandth of a cell of each other, in the order of both borders or "
-    "against one. Each pair is one particle with the mass of both; where a pin holds one of them, it holds both. "
-    "Several seams may meet at a place. Sewn cloth turns about a seam freely: it bends within its cloths only.",
+    "Two sides that are one, of two cloths or of one, which then is a tube. Their particles start in pairs within a "
+    "thousandth of a cell of each other, in the order of both sides or against one, unless they are closed later. Each "
+    "pair is one particle with the mass of both; where a pin holds one of them, it holds both. Of sides with unlike "
+    "numbers of particles the coarser one leads: the other's lie on the straight pieces between its particles, by "
+    "length along each side, and start within a fiftieth of a cell of these. Several seams may meet at a place. Sewn "
+    "cloth turns about a seam freely: it bends within its cloths only.",
     {
         {"a", &Seam::a, seam_side, "One side.", "a side of a seam"},
         {"b", &Seam::b, seam_side, "The other side.", "a side of a seam"},
+        {"close", &Seam::close, number(not_negative),
+         "Seconds from the start in which sides that start apart are drawn together, smoothly, about the centre of "
+         "mass of what meets, or towards what a pin holds; 0: they start together."},
     }};
 
 const Object<Cutter> cutter{

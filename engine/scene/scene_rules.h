@@ -55,6 +55,9 @@ struct OutlineText {
 /// Gives a cloth the grid, the holes and the places that its outline asks for, and tells the corner of the outline's
 /// box in its coordinates, m.
 bool take_outline(const Members& members, Cloth& cloth, std::array<double, 2>& low);
+/// Returns the lowest u and v of the points of an outline that was read before, m, where the panel's box begins;
+/// nothing written: 0.
+std::array<double, 2> outline_corner(const SceneNode& outline);
 /// Finds the particle of a cloth with an outline that is nearest to a point in its coordinates, m.
 bool find_point(const SceneNode& node, const Cloth& cloth, const std::array<double, 2>& low, IndexBox& particles);
 /// Adds missing cells as boxes: runs of a row, each as far down as the same cells are missing below.
@@ -103,8 +106,8 @@ bool check_fields(const SceneNode& colliders, const SceneDescription& scene);
 bool set_twist(const Members& members, Rigidity& rigidity);
 /// Checks a scene, and names the nameless cloths.
 bool check_scene(const Members& members, SceneDescription& scene);
-/// Checks that the cloths can be sewn as the scene wants.
-bool check_seams(const SceneNode& seams, const SceneDescription& scene);
+/// Checks that the cloths can be sewn as the scene wants, and finds out what its points are from.
+bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.
 void warn_of_doubts(const Members& members, const SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);

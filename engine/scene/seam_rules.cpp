@@ -18,7 +18,11 @@ SceneNode node_at(const SceneNode& from, std::string_view pointer) {
 
 }  // namespace
 
-bool check_seams(const SceneNode& seams, const SceneDescription& scene) {
+bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescription& scene) {
+    for (Seam& seam : scene.seams)
+        for (SeamSide* const side : {&seam.a, &seam.b})
+            if (const auto cloth = cloth_called(scene, side->cloth); cloth && side->from)
+                side->corner = outline_corner(cloths.element(*cloth).member("outline"));
     const std::vector<SeamFault> faults = seam_faults(scene);
     for (const SeamFault& fault : faults) node_at(seams, fault.below).fail(fault.text);
     return faults.empty();

@@ -172,6 +172,9 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
                           .texels = true});
     if (model_.sewn_count > 0)
         inputs_.sewn_places = graph.buffer<glsl::SewnPlace>("sewn places", model_.sewn_count, Lifetime::persistent);
+    if (!model_.closings.empty())
+        inputs_.openings = graph.buffer<glsl::SeamOpening>("openings", model_.most_substeps() * model_.closings.size(),
+                                                           Lifetime::host_input);
     declare_forms(graph, model_, inputs_);
 }
 

@@ -49,6 +49,7 @@ void write_inputs(const ClothLayout& layout, const graph::ResourcePool& pool, st
     const FieldRow& pins = row_of(Field::pin_motions);
     if (model.windy) write_buffer(pool, slot, "wind", inputs.wind);
     if (!inputs.stiffness.empty()) write_buffer(pool, slot, "stiffness", inputs.stiffness);
+    if (!inputs.openings.empty()) write_buffer(pool, slot, "openings", inputs.openings);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
     if (inputs.forms) write_forms(pool, slot, *inputs.forms);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)

@@ -90,6 +90,7 @@ struct SceneInputs {
     /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
     graph::Handle sewn_places;  ///< of all cloths: a SewnPlace each; passes write it
+    graph::Handle openings;     ///< a SeamOpening per substep and time of closing; invalid where no seam closes
     graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth
 };
 

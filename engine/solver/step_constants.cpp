@@ -52,6 +52,15 @@ bool keeps_before(Place p) { return (p.step.last || !p.scheme().ended.empty()) &
 bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_count > 0; }
 
 int seam_stage(Place p) { return p.step.push<glsl::SeamPush>().stage; }
+bool seam_moves_all(Place p) {
+    return seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_released ||
+           seam_stage(p) == glsl::seam_begun;
+}
+bool seam_leads(Place p) {
+    const bool steps = seam_stage(p) == glsl::seam_predicted && !p.model.method().iterates();
+    return lies_between(p.cloth->model->sewn) && (steps || seam_stage(p) == glsl::seam_solved);
+}
+bool seam_has_vectors(Place p) { return seam_stage(p) == glsl::seam_forces || seam_stage(p) == glsl::seam_normals; }
 /// Contact writes the position and the displacement of the substep before.
 std::uint32_t sews_touched(Place p) {
     const bool moves = seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_touched;
@@ -108,9 +117,12 @@ constexpr ConstantRow constant_rows[] = {
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
     {"pays_ahead", [](Place p) { return p.step.last && p.step.substep > 0 && has(p, Field::paid) ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
-    {"sews_predicted", [](Place p) { return seam_stage(p) <= glsl::seam_released ? 1u : 0u; }},
+    {"sews_between", [](Place p) { return lies_between(p.cloth->model->sewn) ? 1u : 0u; }},
+    {"sews_closing", [](Place p) { return p.model.closings.empty() ? 0u : 1u; }},
+    {"sews_leads", [](Place p) { return seam_leads(p) ? 1u : 0u; }},
+    {"sews_predicted", [](Place p) { return seam_moves_all(p) ? 1u : 0u; }},
     {"sews_touched", sews_touched},
-    {"sews_vectors", [](Place p) { return seam_stage(p) >= glsl::seam_forces ? 1u : 0u; }},
+    {"sews_vectors", [](Place p) { return seam_has_vectors(p) ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
     {"splits", [](Place p) { return splits_pins(p.model.scene) ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},

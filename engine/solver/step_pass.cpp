@@ -98,7 +98,11 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const auto value = [&](std::string_view name) { return step_constant(place, name); };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     const Turn turned = row.turn ? row.turn(place) : Turn::nothing;
-    PassResources resources{cloth, contact, inputs, {{"constants", &own}, {"sewn_places", &inputs.sewn_places}}};
+    PassResources resources{
+        cloth,
+        contact,
+        inputs,
+        {{"constants", &own}, {"sewn_places", &inputs.sewn_places}, {"openings", &inputs.openings}}};
     if (bearer) {
         resources.own.emplace_back("bodies", &(*bearer)[Field::bodies]);
         resources.own.emplace_back("body_constants", &(*bearer)[Field::body_constants]);

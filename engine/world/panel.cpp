@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "world/rim.h"
 #include "world/start.h"
 
 namespace drape {
@@ -15,7 +16,6 @@ namespace drape {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::uint32_t outside = UINT32_MAX;
 
 double distance(const PanelPoint& a, const PanelPoint& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
@@ -78,7 +78,6 @@ class Fit {
     void find_cells();
     void part_cells_that_share_a_corner();
     void follow_curves();
-    std::vector<std::vector<std::uint32_t>> rims() const;
     void lay(const std::vector<std::uint32_t>& rim, const Track& track, const OutlineCurve& curve);
 
     std::uint32_t columns() const { return panel_.grid[0]; }
@@ -175,32 +174,6 @@ void Fit::part_cells_that_share_a_corner() {
     }
 }
 
-/// Returns the particles along each rim, in the order in which the cloth is on one side.
-std::vector<std::vector<std::uint32_t>> Fit::rims() const {
-    std::vector<std::uint32_t> next(panel_.places.size(), outside);
-    const auto particle = [this](std::int64_t column, std::int64_t row) {
-        return static_cast<std::uint32_t>(row * columns() + column);
-    };
-    for (std::int64_t row = 0; row + 1 < rows(); ++row)
-        for (std::int64_t column = 0; column + 1 < columns(); ++column) {
-            if (!is_cloth(column, row)) continue;
-            if (!is_cloth(column, row - 1)) next[particle(column, row)] = particle(column + 1, row);
-            if (!is_cloth(column + 1, row)) next[particle(column + 1, row)] = particle(column + 1, row + 1);
-            if (!is_cloth(column, row + 1)) next[particle(column + 1, row + 1)] = particle(column, row + 1);
-            if (!is_cloth(column - 1, row)) next[particle(column, row + 1)] = particle(column, row);
-        }
-    std::vector<std::vector<std::uint32_t>> rims;
-    for (std::uint32_t start = 0; start < next.size(); ++start) {
-        if (next[start] == outside) continue;
-        std::vector<std::uint32_t>& rim = rims.emplace_back();
-        for (std::uint32_t at = start; next[at] != outside;) {
-            rim.push_back(at);
-            at = std::exchange(next[at], outside);
-        }
-    }
-    return rims;
-}
-
 /// Lays each rim along the curve that its particles are nearest to.
 void Fit::follow_curves() {
     std::vector<OutlineCurve> moved(curves_.begin(), curves_.end());
@@ -208,7 +181,7 @@ void Fit::follow_curves() {
         for (PanelPoint& point : curve.points) point = {point[0] - panel_.low[0], point[1] - panel_.low[1]};
     std::vector<Track> tracks;
     for (const OutlineCurve& curve : moved) tracks.emplace_back(curve);
-    for (const std::vector<std::uint32_t>& rim : rims()) {
+    for (const std::vector<std::uint32_t>& rim : rims_of(panel_.grid, panel_.missing)) {
         std::size_t chosen = 0;
         double least = infinity;
         for (std::size_t i = 0; i < tracks.size(); ++i) {

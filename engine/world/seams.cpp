@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <stdexcept>
+#include <utility>
 
 #include "base/vectors.h"
+#include "world/seam_sides.h"
 #include "world/start.h"
 #include "world/start_crossings.h"
 
@@ -13,83 +17,123 @@ namespace drape {
 
 namespace {
 
-/// Returns the particles of a border, by rising row or column.
-std::vector<std::uint32_t> particles_of(const Cloth& cloth, SeamEdge edge) {
-    const auto [columns, rows] = cloth.grid;
-    const bool upright = edge == SeamEdge::left || edge == SeamEdge::right;
-    std::vector<std::uint32_t> particles;
-    for (std::uint32_t k = 0; k < (upright ? rows : columns); ++k) switch (edge) {
-            case SeamEdge::left:
-                particles.push_back(k * columns);
-                break;
-            case SeamEdge::right:
-                particles.push_back(k * columns + columns - 1);
-                break;
-            case SeamEdge::top:
-                particles.push_back(k);
-                break;
-            case SeamEdge::bottom:
-                particles.push_back((rows - 1) * columns + k);
-                break;
-        }
-    return particles;
-}
-
 Vec3 place_of(const SceneDescription& scene, const SewnMember& member) {
     const Cloth& cloth = scene.cloths[member.cloth];
     return start_place(cloth, member.particle % cloth.grid[0], member.particle / cloth.grid[0]);
 }
 
-/// The pairs of a seam.
-struct Stitches {
-    std::vector<std::array<SewnMember, 2>> pairs;
-    double gap = 0;  ///< m: the largest between the two of a pair
-    std::size_t widest = 0;
+/// A particle that a seam lays between two.
+struct Joint {
+    SewnMember follower;
+    std::array<SewnMember, 2> leaders;
+    std::array<double, 2> weights;
 };
 
-Stitches stitches_in(const SceneDescription& scene, const Seam& seam, bool reversed) {
-    const std::size_t a = *cloth_called(scene, seam.a.cloth), b = *cloth_called(scene, seam.b.cloth);
-    const std::vector<std::uint32_t> of_a = particles_of(scene.cloths[a], seam.a.edge);
-    std::vector<std::uint32_t> of_b = particles_of(scene.cloths[b], seam.b.edge);
-    if (reversed) std::ranges::reverse(of_b);
-    Stitches made;
-    for (std::size_t k = 0; k < of_a.size(); ++k) {
-        made.pairs.push_back({SewnMember{a, of_a[k]}, SewnMember{b, of_b[k]}});
-        const double gap = length(minus(place_of(scene, made.pairs[k][0]), place_of(scene, made.pairs[k][1])));
-        if (gap > made.gap) made.gap = gap, made.widest = k;
+/// What a seam joins.
+struct Stitches {
+    std::vector<std::array<SewnMember, 2>> pairs;
+    std::vector<Joint> joints;
+    double gap = 0;      ///< m: the largest
+    double widest = 0;   ///< the largest over what is allowed
+    SewnMember where{};  ///< at this particle
+    double wide = 0;     ///< m: as far as it is
+    double allowed = 0;  ///< m: and may be
+};
+
+/// Joins the sides of a seam.
+class Stitcher {
+  public:
+    Stitcher(const SceneDescription& scene, const Seam& seam)
+        : scene_(scene), a_(*cloth_called(scene, seam.a.cloth)), b_(*cloth_called(scene, seam.b.cloth)) {
+        spacing_ = std::min(least_spacing(scene.cloths[a_]), least_spacing(scene.cloths[b_]));
     }
-    return made;
-}
+
+    Stitches join(const SeamRun& of_a, const SeamRun& of_b) {
+        made_ = {};
+        const bool b_is_finer = of_b.particles.size() >= of_a.particles.size();
+        const SeamRun &coarse = b_is_finer ? of_a : of_b, &fine = b_is_finer ? of_b : of_a;
+        leads_ = b_is_finer ? a_ : b_;
+        follows_ = b_is_finer ? b_ : a_;
+        const std::size_t count = fine.particles.size(), last = coarse.particles.size() - 1;
+        for (std::size_t k = 0, at = 0; k < count; ++k) {
+            const SewnMember follower{follows_, fine.particles[k]};
+            if (count == last + 1) {
+                pair({leads_, coarse.particles[k]}, follower);
+                continue;
+            }
+            while (at + 1 < last && coarse.ways[at + 1] <= fine.ways[k]) ++at;
+            lay(coarse, at, fine.ways[k], follower);
+        }
+        return made_;
+    }
+
+  private:
+    void pair(const SewnMember& leader, const SewnMember& follower) {
+        made_.pairs.push_back({leader, follower});
+        measure(leader, place_of(scene_, follower), place_of(scene_, leader), seam_tolerance);
+    }
+    /// Lays a particle on a piece of the coarser side, or on one of its ends where it is that near.
+    void lay(const SeamRun& coarse, std::size_t at, double way, const SewnMember& follower) {
+        constexpr double near = 1e-6;
+        const double part = (way - coarse.ways[at]) / (coarse.ways[at + 1] - coarse.ways[at]);
+        const SewnMember one{leads_, coarse.particles[at]}, other{leads_, coarse.particles[at + 1]};
+        if (part < near || part > 1 - near) return pair(part < near ? one : other, follower);
+        made_.joints.push_back({follower, {one, other}, {1 - part, part}});
+        measure(follower, place_of(scene_, follower),
+                plus(times(1 - part, place_of(scene_, one)), times(part, place_of(scene_, other))),
+                seam_tolerance_between);
+    }
+    void measure(const SewnMember& where, const Vec3& from, const Vec3& to, double tolerance) {
+        const double gap = length(minus(from, to)), allowed = tolerance * spacing_;
+        made_.gap = std::max(made_.gap, gap);
+        if (gap / allowed <= made_.widest) return;
+        made_.widest = gap / allowed;
+        made_.where = where, made_.wide = gap, made_.allowed = allowed;
+    }
+
+    const SceneDescription& scene_;
+    std::size_t a_, b_, leads_ = 0, follows_ = 0;
+    double spacing_;  ///< m
+    Stitches made_;
+};
 
 Stitches stitches_of(const SceneDescription& scene, const Seam& seam) {
-    Stitches straight = stitches_in(scene, seam, false), reversed = stitches_in(scene, seam, true);
-    return reversed.gap < straight.gap ? reversed : straight;
+    Stitcher stitcher(scene, seam);
+    const SeamRun a = particles_of(scene.cloths[*cloth_called(scene, seam.a.cloth)], seam.a),
+                  b = particles_of(scene.cloths[*cloth_called(scene, seam.b.cloth)], seam.b);
+    Stitches straight = stitcher.join(a, b), back = stitcher.join(a, reversed(b));
+    return back.gap < straight.gap ? back : straight;
 }
 
-/// Returns what is wrong with the names and counts of a seam's sides.
+/// Returns a particle as text.
+std::string named_particle(const SceneDescription& scene, const SewnMember& member) {
+    const Cloth& cloth = scene.cloths[member.cloth];
+    return fmt::format("particle [{}, {}] of \"{}\"", member.particle % cloth.grid[0], member.particle / cloth.grid[0],
+                       cloth.name);
+}
+
+/// Returns what is wrong with the sides of a seam.
 std::optional<SeamFault> fault_of_sides(const SceneDescription& scene, const Seam& seam) {
-    for (const auto& [side, key] : {std::pair{&seam.a, "/a/cloth"}, std::pair{&seam.b, "/b/cloth"}})
-        if (!cloth_called(scene, side->cloth))
-            return SeamFault{key, fmt::format("expected the name of a cloth of the scene, got \"{}\"", side->cloth)};
-    if (seam.a == seam.b) return SeamFault{"/b", "expected another edge than that of a, got the same"};
-    const auto count = [&](const SeamSide& side) {
-        return particles_of(scene.cloths[*cloth_called(scene, side.cloth)], side.edge).size();
-    };
-    if (count(seam.a) == count(seam.b)) return std::nullopt;
-    return SeamFault{"",
-                     fmt::format("expected edges of as many particles, got {} and {}", count(seam.a), count(seam.b))};
+    for (const auto& [side, key] : {std::pair{&seam.a, "/a"}, std::pair{&seam.b, "/b"}}) {
+        const auto cloth = cloth_called(scene, side->cloth);
+        if (!cloth)
+            return SeamFault{std::string(key) + "/cloth",
+                             fmt::format("expected the name of a cloth of the scene, got \"{}\"", side->cloth)};
+        if (auto fault = side_fault(scene.cloths[*cloth], *side))
+            return SeamFault{key + fault->below, std::move(fault->text)};
+    }
+    if (seam.a == seam.b) return SeamFault{"/b", "expected another side than a, got the same"};
+    if (!(seam.close >= 0 && std::isfinite(seam.close))) return SeamFault{"/close", "expected a time of 0 or more"};
+    return std::nullopt;
 }
 
 std::optional<SeamFault> fault_of(const SceneDescription& scene, const Seam& seam) {
     if (auto fault = fault_of_sides(scene, seam)) return fault;
     const Stitches made = stitches_of(scene, seam);
-    const auto& [a, b] = made.pairs[made.widest];
-    const Cloth &one = scene.cloths[a.cloth], &other = scene.cloths[b.cloth];
-    const double most = seam_tolerance * std::min(least_spacing(one), least_spacing(other));
-    if (made.gap <= most) return std::nullopt;
-    return SeamFault{"", fmt::format("expected edges that start together, within {:.3g} m (a thousandth of a cell), "
-                                     "got a gap of {:.3g} m at particle [{}, {}] of \"{}\"",
-                                     most, made.gap, a.particle % one.grid[0], a.particle / one.grid[0], one.name)};
+    if (made.widest <= 1 || seam.close > 0) return std::nullopt;
+    return SeamFault{"", fmt::format("expected sides that start together, within {:.3g} m, or close, got a gap of "
+                                     "{:.3g} m at {}",
+                                     made.allowed, made.wide, named_particle(scene, made.where))};
 }
 
 /// Returns what of a scene does not go with seams.
@@ -105,24 +149,154 @@ std::string excluded_by(const SceneDescription& scene) {
 
 bool lets_go_or_moves(const Pin& pin) { return pin.release || !pin.path.keys.empty(); }
 
-/// Returns a fault where a pin that moves or lets go is not the only one at a sewn place.
-std::optional<SeamFault> fault_of_pins(const SceneDescription& scene) {
-    for (const SewnGroup& place : sewn_groups(scene)) {
+bool is_held(const SceneDescription& scene, const SewnGroup& group) {
+    return std::ranges::any_of(group, [&](const SewnMember& member) { return holding_pin(scene, member).has_value(); });
+}
+
+/// Returns a fault where a pin that moves or lets go is not the only one at a sewn place, or pins hold what lies
+/// between places that none holds.
+std::optional<SeamFault> fault_of_pins(const SceneDescription& scene, const Sewing& sewing) {
+    for (const auto& [group, close] : sewing.stations) {
         std::size_t held = 0, changing = 0;
-        for (const SewnMember& member : place)
+        for (const SewnMember& member : group)
             if (const auto pin = holding_pin(scene, member)) {
                 ++held;
                 changing += lets_go_or_moves(scene.cloths[member.cloth].pins[*pin]) ? 1 : 0;
             }
         if (changing == 0 || held == 1) continue;
-        const Cloth& cloth = scene.cloths[place.front().cloth];
-        const std::uint32_t particle = place.front().particle;
-        return SeamFault{"", fmt::format("expected one pin alone where it moves or lets go, got {} at the sewn "
-                                         "particle [{}, {}] of \"{}\"",
-                                         held, particle % cloth.grid[0], particle / cloth.grid[0], cloth.name)};
+        return SeamFault{"", fmt::format("expected one pin alone where it moves or lets go, got {} at the sewn {}",
+                                         held, named_particle(scene, group.front()))};
     }
+    for (const SewnBetween& each : sewing.between)
+        if (is_held(scene, each.group))
+            for (const std::size_t station : each.stations)
+                if (!is_held(scene, sewing.stations[station].group))
+                    return SeamFault{
+                        fmt::format("/{}", each.seam),
+                        fmt::format("expected pins of the coarser side where the finer one is held, got none of {} "
+                                    "beside {}",
+                                    named_particle(scene, sewing.stations[station].group.front()),
+                                    named_particle(scene, each.group.front()))};
     return std::nullopt;
 }
+
+/// Joins particles into groups.
+class Groups {
+  public:
+    /// Returns the leader of a particle's group, which it alone is at first.
+    SewnMember leader_of(SewnMember member) {
+        led_.try_emplace(member, member);
+        while (led_.at(member) != member) member = led_.at(member);
+        return member;
+    }
+    void join(const SewnMember& a, const SewnMember& b, double close) {
+        const SewnMember one = leader_of(a), other = leader_of(b);
+        const double later = std::max({close_[one], close_[other], close});
+        led_.at(std::max(one, other)) = std::min(one, other);
+        close_[std::min(one, other)] = later;
+    }
+    struct Group {
+        SewnGroup members;
+        double close = 0;
+    };
+    std::map<SewnMember, Group> all() {
+        std::map<SewnMember, Group> groups;
+        for (const auto& [member, ignored] : led_) groups[leader_of(member)].members.push_back(member);
+        for (auto& [leader, group] : groups) group.close = close_[leader];
+        return groups;
+    }
+
+  private:
+    std::map<SewnMember, SewnMember> led_;  ///< by particle, one that it is sewn to, in the end its leader
+    std::map<SewnMember, double> close_;    ///< by leader
+};
+
+/// Makes one sewing of all seams, and says where that cannot be.
+class Sewer {
+  public:
+    explicit Sewer(const SceneDescription& scene) : scene_(scene) {}
+
+    std::optional<SeamFault> sew() {
+        std::vector<Stitches> all;
+        for (const Seam& seam : scene_.seams) all.push_back(stitches_of(scene_, seam));
+        for (std::size_t k = 0; k < all.size(); ++k)
+            for (const auto& [one, other] : all[k].pairs)
+                if (has_cell(one) && has_cell(other)) groups_.join(one, other, scene_.seams[k].close);
+        for (std::size_t k = 0; k < all.size(); ++k)
+            for (const Joint& joint : all[k].joints)
+                if (has_cell(joint.follower) && has_cell(joint.leaders[0]) && has_cell(joint.leaders[1]))
+                    if (auto fault = lay(joint, k)) return fault;
+        return take_all();
+    }
+    Sewing take() && { return std::move(sewing_); }
+
+  private:
+    bool has_cell(const SewnMember& member) {
+        const auto [at, fresh] = has_cell_.try_emplace(member.cloth);
+        if (fresh) at->second = particles_of_cells(scene_.cloths[member.cloth]);
+        return at->second[member.particle];
+    }
+    SeamFault fault(std::size_t seam, const SewnMember& member) const {
+        return {fmt::format("/{}", seam), fmt::format("expected no particle that other seams lay between others too, "
+                                                      "got {}: sew the finer sides to the coarsest",
+                                                      named_particle(scene_, member))};
+    }
+    std::optional<SeamFault> lay(const Joint& joint, std::size_t seam) {
+        const SewnMember follower = groups_.leader_of(joint.follower);
+        Laid laid{{groups_.leader_of(joint.leaders[0]), groups_.leader_of(joint.leaders[1])}, joint.weights, seam};
+        if (laid.leaders[0] == laid.leaders[1] || follower == laid.leaders[0] || follower == laid.leaders[1])
+            return fault(seam, joint.follower);
+        if (laid.leaders[1] < laid.leaders[0]) {
+            std::swap(laid.leaders[0], laid.leaders[1]);
+            std::swap(laid.weights[0], laid.weights[1]);
+        }
+        const auto [before, fresh] = laid_.try_emplace(follower, laid);
+        constexpr double same = 1e-9;
+        if (fresh ||
+            (before->second.leaders == laid.leaders && std::abs(before->second.weights[0] - laid.weights[0]) < same))
+            return std::nullopt;
+        return fault(seam, joint.follower);
+    }
+    std::optional<SeamFault> take_all() {
+        std::map<SewnMember, bool> leads;
+        for (const auto& [follower, laid] : laid_)
+            for (const SewnMember& leader : laid.leaders) {
+                if (laid_.contains(leader)) return fault(laid.seam, leader);
+                leads[leader] = true;
+            }
+        std::map<SewnMember, std::size_t> stations;
+        std::map<SewnMember, Groups::Group> groups = groups_.all();
+        for (auto& [leader, group] : groups) {
+            if (laid_.contains(leader) || (group.members.size() == 1 && !leads.contains(leader))) continue;
+            stations[leader] = sewing_.stations.size();
+            sewing_.stations.push_back({group.members, group.close});
+        }
+        for (const auto& [follower, laid] : laid_) {
+            const Groups::Group& group = groups.at(follower);
+            for (const SewnMember& leader : laid.leaders) {
+                double& close = sewing_.stations[stations.at(leader)].close;
+                close = std::max(close, scene_.seams[laid.seam].close);
+            }
+            sewing_.between.push_back({group.members,
+                                       {stations.at(laid.leaders[0]), stations.at(laid.leaders[1])},
+                                       laid.weights,
+                                       std::max(group.close, scene_.seams[laid.seam].close),
+                                       laid.seam});
+        }
+        return std::nullopt;
+    }
+
+    struct Laid {
+        std::array<SewnMember, 2> leaders;
+        std::array<double, 2> weights;
+        std::size_t seam;
+    };
+    const SceneDescription& scene_;
+    Groups groups_;
+    std::map<SewnMember, Laid> laid_;  ///< by the leader of a group that lies between
+    std::map<std::size_t, std::vector<bool>> has_cell_;
+    Sewing sewing_;
+};
 
 }  // namespace
 
@@ -152,46 +326,24 @@ std::vector<SeamFault> seam_faults(const SceneDescription& scene) {
             faults.push_back(std::move(*fault));
         }
     if (!faults.empty()) return faults;
-    if (auto fault = fault_of_pins(scene)) faults.push_back(std::move(*fault));
+    Sewer sewer(scene);
+    auto fault = sewer.sew();
+    if (!fault) fault = fault_of_pins(scene, std::move(sewer).take());
+    if (fault) faults.push_back(std::move(*fault));
     return faults;
 }
 
-std::vector<SewnGroup> sewn_groups(const SceneDescription& scene) {
-    std::map<SewnMember, SewnMember> led;  // by particle, one that it is sewn to, in the end its leader
-    const auto leader_of = [&](SewnMember member) {
-        while (led.at(member) != member) member = led.at(member);
-        return member;
-    };
-    std::map<std::size_t, std::vector<bool>> has_cell;
-    for (const Seam& seam : scene.seams)
-        for (const auto& pair : stitches_of(scene, seam).pairs) {
-            bool joined = true;
-            for (const SewnMember& each : pair) {
-                const auto [at, fresh] = has_cell.try_emplace(each.cloth);
-                if (fresh) at->second = particles_of_cells(scene.cloths[each.cloth]);
-                joined = joined && at->second[each.particle];
-            }
-            if (!joined) continue;
-            for (const SewnMember& each : pair) led.try_emplace(each, each);
-            const SewnMember one = leader_of(pair[0]), other = leader_of(pair[1]);
-            led.at(std::max(one, other)) = std::min(one, other);
-        }
-    std::map<SewnMember, SewnGroup> by_leader;
-    for (const auto& [member, ignored] : led) by_leader[leader_of(member)].push_back(member);
-    std::vector<SewnGroup> places;
-    for (auto& [leader, place] : by_leader)
-        if (place.size() > 1) places.push_back(std::move(place));
-    return places;
+Sewing sewing_of(const SceneDescription& scene) {
+    Sewer sewer(scene);
+    if (const auto fault = sewer.sew()) throw std::invalid_argument("seams" + fault->below + ": " + fault->text);
+    return std::move(sewer).take();
 }
 
-Vec3 sewn_start(const SceneDescription& scene, const SewnGroup& place) {
-    for (const SewnMember& member : place)
-        if (holding_pin(scene, member)) return place_of(scene, member);
-    const SewnMember& leader = place.front();
-    const Cloth& cloth = scene.cloths[leader.cloth];
-    const double jitter = start_jitter(cloth);
-    const Vec3 at = place_of(scene, leader);
-    return jitter > 0 ? plus(at, start_offset(cloth.placement, jitter, leader.particle)) : at;
+Vec3 unsewn_start(const SceneDescription& scene, const SewnMember& member) {
+    const Cloth& cloth = scene.cloths[member.cloth];
+    const double jitter = holding_pin(scene, member) ? 0 : start_jitter(cloth);
+    const Vec3 at = place_of(scene, member);
+    return jitter > 0 ? plus(at, start_offset(cloth.placement, jitter, member.particle)) : at;
 }
 
 }  // namespace drape

@@ -11,6 +11,36 @@ SHARED vec3 sewn_mean(vec3 mean, vec3 value, float share) {
     return share == 1.0f ? value : share == 0.0f ? mean : further;
 }
 
+/// Returns what lies between two places of which it is so much each.
+SHARED vec3 sewn_between(vec3 one, vec3 other, float of_one, float of_other) {
+    precise vec3 between = one * of_one + other * of_other;
+    return between;
+}
+
+/// Returns by how much something moves before a place, or this from it.
+SHARED vec3 sewn_lead(vec3 moved, vec3 place) {
+    precise vec3 lead = moved - place;
+    return lead;
+}
+
+/// Returns where a place is after one of a cloth's particles has moved it, which has this part in its mass.
+SHARED vec3 sewn_change(vec3 place, vec3 moved, vec3 before, float part) {
+    precise vec3 changed = place + (moved - before) * part;
+    return changed;
+}
+
+/// Returns where a particle is while so much is left of its gap to its place.
+SHARED vec3 sewn_apart(vec3 place, vec3 gap, float left) {
+    precise vec3 at = place + gap * left;
+    return at;
+}
+
+/// Returns the place of such a particle.
+SHARED vec3 sewn_together(vec3 at, vec3 gap, float left) {
+    precise vec3 place = at - gap * left;
+    return place;
+}
+
 /// Returns the square of the way that contact has led a particle by, in displacement and position.
 SHARED float sewn_way(vec3 moved, vec3 displacement, vec3 start, vec3 position) {
     precise vec3 way = (moved - displacement) + (start - position);

@@ -225,6 +225,8 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"ContactParting", parting(line, 5), 0},
         {"SewnLine", with(three_panels(line), line, 4), 5},
         {"SewnExplicit", with(three_panels(explicit_steps), explicit_steps, 12), 5},
+        {"SewnBetween", with(unlike_panels(line), line, 4), 5},
+        {"SewnClosing", with(unlike_panels(line, 0.06), line, 4), 5},
         {"ForcesInFlight", telling_forces(flying(false)), 5},
         {"ForcesOfParting", telling_forces(parting(line, 5)), 0},
     };

@@ -34,15 +34,32 @@ TEST_P(TwinSeamTest, ATube) {
     compare(touched);
 }
 
+TEST_P(TwinSeamTest, UnlikePanels) {
+    SceneDescription scene = test::unlike_panels(GetParam());
+    compare(scene);
+    scene.cloths[1].loads = {{.particles = {{0, 0}, {20, 8}}, .force = {{0, 0.4, 0.3}}}};
+    scene.solver.iterations = 2;
+    compare(scene);
+}
+
+TEST_P(TwinSeamTest, SeamsThatClose) {
+    compare(test::unlike_panels(GetParam(), 0.06));
+    SceneDescription alike = three_panels(GetParam());
+    alike.cloths[1].pins.clear();
+    alike.cloths[1].placement.origin[1] += 0.05;
+    alike.seams.front().close = 0.05;
+    compare(alike);
+}
+
 TEST_P(TwinSeamTest, CopiesOfAParticleStayTheSame) {
     for (const SceneDescription& scene : {two_panels(GetParam()), three_panels(GetParam()), tube(GetParam())}) {
         const SimulationModel model(scene);
         Twin twin(model);
-        const std::vector<SewnGroup> groups = sewn_groups(model.scene);
-        ASSERT_FALSE(groups.empty());
+        const std::vector<SewnStation> stations = sewing_of(model.scene).stations;
+        ASSERT_FALSE(stations.empty());
         for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
             twin.run_frame(frame);
-            for (const SewnGroup& group : groups)
+            for (const auto& [group, close] : stations)
                 for (const SewnMember& member : group) {
                     const auto at = [&](const SewnMember& which, Field field) {
                         return xyz(twin.cloth(which.cloth)[field][which.particle]);

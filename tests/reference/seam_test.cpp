@@ -7,51 +7,15 @@
 #include <numbers>
 
 #include "base/vectors.h"
-#include "cloth/cloth_statistics.h"
 #include "reference/implicit_reference.h"
 #include "reference/sewn_network.h"
+#include "sewn_measures.h"
 #include "support/sheets.h"
-#include "twin/statistics.h"
-#include "twin/twin.h"
-#include "world/seams.h"
 
 namespace drape {
 namespace {
 
-SceneDescription with_method(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
-    scene.solver.method = method;
-    scene.solver.substeps = substeps;
-    return scene;
-}
-
-/// A level sheet of so many links a side and 1 m, held by its top row.
-SceneDescription plain_sheet(std::uint32_t links) {
-    SceneDescription scene = test::sheet(links + 1, links + 1, 1, 1, 8);
-    Cloth& cloth = scene.cloths[0];
-    cloth.placement = {{-0.5, 1, 0}, {1, 0, 0}, {0, 0, 1}};
-    cloth.stiffness = {false, 1000, 100, 1e-4};
-    cloth.pins = {test::pin_top(cloth)};
-    return scene;
-}
-
-/// The same of two halves, sewn across the load or along it.
-SceneDescription halves(std::uint32_t links, bool across) {
-    SceneDescription scene = plain_sheet(links);
-    Cloth& one = scene.cloths[0];
-    one.name = "one";
-    const std::size_t axis = across ? 1 : 0;
-    one.grid[axis] = links / 2 + 1;
-    one.size[axis] = 0.5;
-    one.pins = {test::pin_box(0, 0, one.grid[0] - 1, 0)};
-    Cloth other = one;
-    other.name = "other";
-    other.placement.origin[across ? 2 : 0] += 0.5;
-    if (across) other.pins.clear();
-    scene.cloths.push_back(other);
-    scene.seams = {across ? Seam{{"one", SeamEdge::bottom}, {"other", SeamEdge::top}}
-                          : Seam{{"one", SeamEdge::right}, {"other", SeamEdge::left}}};
-    return scene;
-}
+using namespace test;
 
 /// A tube of one cloth, 0.2 m wide, that hangs from its upper rim and is thrown sideways.
 SceneDescription tube(std::uint32_t around, std::uint32_t down) {
@@ -70,11 +34,6 @@ SceneDescription tube(std::uint32_t around, std::uint32_t down) {
     cloth.placement = {};
     scene.seams = {{{cloth.name, SeamEdge::left}, {cloth.name, SeamEdge::right}}};
     return scene;
-}
-
-Vec3 place_of(const TwinCloth& cloth, std::size_t i) {
-    const glsl::vec4& at = cloth[Field::position][i];
-    return {double{at.x}, double{at.y}, double{at.z}};
 }
 
 /// Returns how far a run is from the network's motion after so many frames, RMS over the network's particles.
@@ -157,30 +116,6 @@ TEST(Seam, ExplicitStepsOfHalvesAreThoseOfTheSheet) {
     EXPECT_LT(farthest, 1e-4);
 }
 
-/// The momenta of all cloths about the origin, by the masses of their own cells, and their mass.
-struct Momenta {
-    double mass = 0;
-    Vec3 linear{}, angular{};
-};
-
-Momenta momenta_of(const SimulationModel& model, const Twin& twin) {
-    Momenta all;
-    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        const ClothModel& own = model.cloths[cloth];
-        const std::vector<float> shares = mass_shares(own);
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const double mass = own.inner_mass * double{shares[i]};
-            const glsl::vec4& moved = twin.cloth(cloth)[Field::displacement][i];
-            const Vec3 velocity =
-                times(1 / own.substep_length, Vec3{double{moved.x}, double{moved.y}, double{moved.z}});
-            all.mass += mass;
-            all.linear = plus(all.linear, times(mass, velocity));
-            all.angular = plus(all.angular, cross(place_of(twin.cloth(cloth), i), times(mass, velocity)));
-        }
-    }
-    return all;
-}
-
 TEST(Seam, FreeClothKeepsItsMomentum) {
     for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps}) {
         SceneDescription scene =
@@ -225,20 +160,6 @@ TEST(Seam, AFollowerOfAHeldLeaderIsHeldAndOneThatIsLetGoIsFree) {
     EXPECT_EQ(weight(1, 0), 0.0f);
     EXPECT_EQ(weight(0, 4 * 9 + 4), 1.0f);
     EXPECT_EQ(weight(1, 4), 1.0f) << "both have the mass of both";
-}
-
-double kinetic_energy(const SimulationModel& model, const Twin& twin) {
-    double all = 0;
-    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) {
-        const ClothModel& own = model.cloths[cloth];
-        const std::vector<float> shares = mass_shares(own);
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const glsl::vec4& moved = twin.cloth(cloth)[Field::displacement][i];
-            const Vec3 way{double{moved.x}, double{moved.y}, double{moved.z}};
-            all += own.inner_mass * double{shares[i]} * dot(way, way) / 2;
-        }
-    }
-    return all / (model.cloths[0].substep_length * model.cloths[0].substep_length);
 }
 
 /// Cloth never has more than the energy of its strained start and of its fall, whose most is that of a metre.

@@ -305,7 +305,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"capsule", {"radii", "path", "mass", "inertia"}},
         {"mesh", {"file", "shell", "spacing", "frames", "path"}},
         {"seam", {"a", "b"}},
-        {"seam_side", {"cloth", "edge"}},
+        {"seam_side", {"cloth", "edge", "from", "to"}},
         {"cutter", {"triangle", "active", "path"}},
         {"solver", {"estimate_error"}},
         {"oracle", {"check"}}};

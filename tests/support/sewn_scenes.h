@@ -51,6 +51,25 @@ inline SceneDescription three_panels(SolverMethod method) {
     return scene;
 }
 
+/// The three panels of unlike columns, so that the particles of two lie between those of the first, or all between the
+/// third's; with `close` above 0 the lower ones start apart from it.
+inline SceneDescription unlike_panels(SolverMethod method, double close = 0) {
+    SceneDescription scene = three_panels(method);
+    scene.cloths[1].grid[0] = 21;
+    scene.cloths[1].pins.pop_back();  // pins hold no particle between two
+    scene.cloths[1].pins[0].particles.last = {0, 0};
+    scene.cloths[2].grid[0] = close > 0 ? 14 : 24;
+    for (Seam& seam : scene.seams) seam.close = close;
+    if (close > 0) {
+        scene.seams.back().b = {"lower", SeamEdge::top};
+        scene.seams.front().b = {"third", SeamEdge::top};
+        scene.cloths[1].placement.origin[1] += 0.07;
+        scene.cloths[2].placement.origin[2] += 0.09;
+        scene.cloths[1].pins = {pin_box(0, 0, 0, 0)};
+    }
+    return scene;
+}
+
 /// A tube that is one cloth, hung by its upper rim.
 inline SceneDescription tube(SolverMethod method) {
     constexpr std::uint32_t around = 24, down = 12;

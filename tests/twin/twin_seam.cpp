@@ -9,81 +9,129 @@ using namespace glsl;
 
 namespace {
 
-/// Calls `give` with each of the cloth's particles at a place, the place, and what that was before the first of them.
+/// An entry of the list of sewn particles, as a pass that hands on sees it.
+struct Given {
+    const Sewn& each;
+    std::size_t own;  ///< its index
+    glsl::SewnPlace& place;
+    const glsl::SewnPlace& begun;  ///< the place before any of the cloth's particles was counted
+    std::size_t count;             ///< of the cloth's particles there
+
+    const SewnParticle& sewn() const { return each.sewn; }
+    std::size_t particle() const { return each.particle; }
+    bool is_between() const { return each.sewn.between.x >= 0; }
+};
+
 template <class Give>
 void for_sewn(const TwinPlace& where, const Give& give) {
     const std::vector<Sewn>& all = where.model.sewn;
-    for (std::size_t own = 0; own < all.size(); ++own) {
-        if (all[own].sewn.at.w == 0) continue;
-        glsl::SewnPlace& place = (*where.state.sewn)[static_cast<std::size_t>(all[own].sewn.at.z)];
+    for (std::size_t first = 0; first < all.size(); ++first) {
+        if (all[first].sewn.at.w == 0) continue;
+        glsl::SewnPlace& place = (*where.state.sewn)[static_cast<std::size_t>(all[first].sewn.at.z)];
         const glsl::SewnPlace begun = place;
-        const auto count = static_cast<std::size_t>(all[own].sewn.at.w);
-        for (std::size_t k = 0; k < count; ++k) give(all[own + k], place, begun, count);
+        const auto count = static_cast<std::size_t>(all[first].sewn.at.w);
+        for (std::size_t k = 0; k < count; ++k) give(Given{all[first + k], first + k, place, begun, count});
     }
 }
 
+int stage_of(const TwinPlace& where) { return where.step.push<SeamPush>().stage; }
+bool moves_all(int stage) { return stage == seam_predicted || stage == seam_released || stage == seam_begun; }
+bool has_vectors(int stage) { return stage == seam_forces || stage == seam_normals; }
+
 std::vector<vec4>& vectors_of(const TwinPlace& where) {
-    return where.state[where.step.push<SeamPush>().stage == seam_normals ? Field::normal : Field::wind_force];
+    return where.state[stage_of(where) == seam_normals ? Field::normal : Field::wind_force];
 }
 
 /// Returns whether contact has written the position and the displacement of the substep before.
 bool touches(const TwinPlace& where) {
-    return where.step.push<SeamPush>().stage != seam_released && !where.scene.scene.colliders.empty();
+    const int stage = stage_of(where);
+    return (stage == seam_predicted || stage == seam_touched) && !where.scene.scene.colliders.empty();
 }
 
+/// Returns how much is left of a particle's gap.
+glsl::vec2 left_of(const TwinPlace& where, const SewnParticle& sewn) {
+    const int first = where.step.push<SeamPush>().opening;
+    return where.inputs.openings[static_cast<std::size_t>(first + sewn.between.z)].left;
+}
+
+/// Returns where a particle's place is.
+vec3 place_of(const TwinPlace& where, const SewnParticle& sewn, vec3 at) {
+    if (sewn.between.z < 0) return at;
+    const glsl::vec2 left = left_of(where, sewn);
+    return sewn_together(at, xyz(sewn.gap), stage_of(where) == seam_touched ? left.y : left.x);
+}
+
+vec3 lead_of(const TwinPlace& where, std::size_t own) { return xyz(where.state[Field::sewn_leads][own]); }
+
 void give_vectors(const TwinPlace& where) {
-    const bool normals = where.step.push<SeamPush>().stage == seam_normals;
-    for_sewn(where, [&](const Sewn& each, glsl::SewnPlace& place, const glsl::SewnPlace&, std::size_t) {
-        const vec4 own = vectors_of(where)[each.particle];
-        place.vector = each.sewn.weights.z != 0 ? own
-                       : normals                ? texel(sewn_normal(xyz(place.vector), xyz(own)))
-                                                : sewn_force(place.vector, own);
+    const bool normals = stage_of(where) == seam_normals;
+    for_sewn(where, [&](const Given& given) {
+        vec4 own = vectors_of(where)[given.particle()];
+        if (given.is_between()) own = own_force(own, given.sewn().weights.w);
+        vec4& sum = given.place.vector;
+        sum = given.sewn().weights.z != 0 ? own
+              : normals                   ? texel(sewn_normal(xyz(sum), xyz(own)))
+                                          : sewn_force(sum, own);
     });
 }
 
 void give_means(const TwinPlace& where) {
     TwinCloth& state = where.state;
-    const bool touched = touches(where);
-    for_sewn(where, [&](const Sewn& each, glsl::SewnPlace& place, const glsl::SewnPlace&, std::size_t) {
-        const float share = each.sewn.weights.x;
-        const vec4 moved = state[Field::displacement][each.particle];
-        place.displacement = texel(sewn_mean(xyz(place.displacement), xyz(moved), share),
-                                   share == 1.0f ? moved.w : place.displacement.w);
+    const bool touched = touches(where), settled = stage_of(where) != seam_predicted;
+    const bool counts_changes = !settled && !where.scene.method().iterates();
+    for_sewn(where, [&](const Given& given) {
+        glsl::SewnPlace& place = given.place;
+        const bool leads = given.sewn().between.w == 1;
+        const float share = !settled ? given.sewn().weights.x : leads ? 1.0f : 0.0f;
+        const vec4 moved = state[Field::displacement][given.particle()];
+        const vec3 way =
+            counts_changes && given.is_between() ? sewn_lead(xyz(moved), lead_of(where, given.own)) : xyz(moved);
+        place.displacement =
+            texel(sewn_mean(xyz(place.displacement), way, share), leads ? moved.w : place.displacement.w);
         place.remainder =
-            texel(sewn_mean(xyz(place.remainder), xyz(state[Field::displacement_remainder][each.particle]), share));
-        if (share != 1.0f) return;
-        place.position = state[Field::position][each.particle];
-        if (touched) place.before = where.before()[each.particle];
+            texel(sewn_mean(xyz(place.remainder), xyz(state[Field::displacement_remainder][given.particle()]), share));
+        if (!leads) return;
+        const vec4 start = state[Field::position][given.particle()];
+        place.position = texel(place_of(where, given.sewn(), xyz(start)), start.w);
+        if (touched) place.before = where.before()[given.particle()];
     });
 }
 
 void give_touched(const TwinPlace& where) {
     TwinCloth& state = where.state;
     float farthest = -1;
-    for_sewn(where, [&](const Sewn& each, glsl::SewnPlace& place, const glsl::SewnPlace& begun, std::size_t count) {
-        if (each.sewn.at.w > 0) farthest = -1;
-        const vec4 start = state[Field::position][each.particle], moved = state[Field::displacement][each.particle];
-        const float way = sewn_way(xyz(moved), xyz(begun.displacement), xyz(start), xyz(begun.position));
-        if (count > 1 && !(way > farthest)) return;
+    for_sewn(where, [&](const Given& given) {
+        if (given.sewn().at.w > 0) farthest = -1;
+        if (given.is_between()) return;
+        const vec4 start = state[Field::position][given.particle()],
+                   moved = state[Field::displacement][given.particle()];
+        const vec3 from = place_of(where, given.sewn(), xyz(start));
+        const float way = sewn_way(xyz(moved), xyz(given.begun.displacement), from, xyz(given.begun.position));
+        if (given.count > 1 && !(way > farthest)) return;
         farthest = way;
-        place.position = texel(xyz(start), begun.position.w);
-        place.displacement = moved;
-        if (!where.scene.scene.colliders.empty()) place.before = where.before()[each.particle];
+        given.place.position = texel(from, given.begun.position.w);
+        given.place.displacement = moved;
+        if (!where.scene.scene.colliders.empty()) given.place.before = where.before()[given.particle()];
     });
 }
 
 void give_solved(const TwinPlace& where) {
-    for_sewn(where, [&](const Sewn& each, glsl::SewnPlace& place, const glsl::SewnPlace&, std::size_t) {
-        const vec3 moved = xyz(where.state[Field::displacement][each.particle]);
-        place.displacement = texel(sewn_mean(xyz(place.displacement), moved, each.sewn.parts.x), place.displacement.w);
+    for_sewn(where, [&](const Given& given) {
+        const glsl::vec4 parts = given.sewn().parts;
+        vec3 moved = xyz(where.state[Field::displacement][given.particle()]);
+        if (given.is_between()) moved = sewn_lead(moved, lead_of(where, given.own));
+        const vec3 mean = xyz(given.place.displacement);
+        given.place.displacement = texel(parts.w != 0 ? sewn_change(mean, moved, xyz(given.begun.displacement), parts.y)
+                                                      : sewn_mean(mean, moved, parts.x),
+                                         given.place.displacement.w);
     });
 }
 
 void run_give(const TwinPlace& where) {
-    const int stage = where.step.push<SeamPush>().stage;
-    if (stage >= seam_forces)
+    const int stage = stage_of(where);
+    if (has_vectors(stage))
         give_vectors(where);
-    else if (stage <= seam_released)
+    else if (moves_all(stage))
         give_means(where);
     else if (stage == seam_touched)
         give_touched(where);
@@ -91,31 +139,69 @@ void run_give(const TwinPlace& where) {
         give_solved(where);
 }
 
+const glsl::SewnPlace& place_at(const TwinPlace& where, int index) {
+    return (*where.state.sewn)[static_cast<std::size_t>(index)];
+}
+
 void take_vectors(const TwinPlace& where) {
-    const bool normals = where.step.push<SeamPush>().stage == seam_normals;
     for (const Sewn& each : where.model.sewn) {
-        const vec4 sum = (*where.state.sewn)[static_cast<std::size_t>(each.sewn.at.z)].vector;
+        const SewnParticle& sewn = each.sewn;
+        if (sewn.between.y == 0) continue;
+        const bool is_between = sewn.between.x >= 0;
+        vec4 sum = place_at(where, sewn.at.z).vector;
+        const vec4 other = is_between ? place_at(where, sewn.between.x).vector : vec4{};
         vec4& own = vectors_of(where)[each.particle];
-        if (!normals)
-            own = own_force(sum, each.sewn.parts.y);
-        else if (shares_normal(xyz(sum), xyz(own)))
-            own = texel(unit_or_zero(xyz(sum)));
+        if (stage_of(where) == seam_forces) {
+            const vec4 force = own_force(sum, sewn.parts.y);
+            own = is_between ? sewn_force(force, own_force(other, sewn.parts.z)) : force;
+            continue;
+        }
+        if (is_between) sum = texel(sewn_between(xyz(sum), xyz(other), sewn.weights.w, sewn.gap.w));
+        if (shares_normal(xyz(sum), xyz(own))) own = texel(unit_or_zero(xyz(sum)));
     }
 }
 
+/// Returns what is between two places.
+glsl::SewnPlace between(const glsl::SewnPlace& one, const glsl::SewnPlace& other, float of_one, float of_other) {
+    const auto mean = [&](const vec4& a, const vec4& b) {
+        return texel(sewn_between(xyz(a), xyz(b), of_one, of_other), a.w);
+    };
+    glsl::SewnPlace place = one;
+    place.position = mean(one.position, other.position);
+    if (other.position.w != 0) place.position.w = other.position.w;
+    place.displacement = mean(one.displacement, other.displacement);
+    place.remainder = mean(one.remainder, other.remainder);
+    place.before = mean(one.before, other.before);
+    return place;
+}
+
 void run_take(const TwinPlace& where) {
-    const int stage = where.step.push<SeamPush>().stage;
-    if (stage >= seam_forces) return take_vectors(where);
+    const int stage = stage_of(where);
+    if (has_vectors(stage)) return take_vectors(where);
     TwinCloth& state = where.state;
-    const bool predicted = stage <= seam_released, touched = touches(where);
-    for (const Sewn& each : where.model.sewn) {
-        const glsl::SewnPlace& place = (*state.sewn)[static_cast<std::size_t>(each.sewn.at.z)];
+    const bool predicted = moves_all(stage), touched = touches(where), moves = stage == seam_predicted || touched;
+    std::vector<vec4>& leads = state[Field::sewn_leads];
+    leads.resize(where.model.sewn.size());
+    for (std::size_t own = 0; own < leads.size(); ++own) {
+        const Sewn& each = where.model.sewn[own];
+        const SewnParticle& sewn = each.sewn;
+        glsl::SewnPlace place = place_at(where, sewn.at.z);
+        if (sewn.between.x >= 0) {
+            const vec3 begun = xyz(place.displacement);
+            place = between(place, place_at(where, sewn.between.x), sewn.weights.w, sewn.gap.w);
+            leads[own] = texel(sewn_lead(xyz(place.displacement), begun));
+        }
+        if (sewn.between.y == 0) continue;
         state[Field::displacement][each.particle] = place.displacement;
         if (predicted) state[Field::displacement_remainder][each.particle] = place.remainder;
         if (touched) where.before()[each.particle] = place.before;
-        if (predicted || touched)
-            state[Field::position][each.particle] =
-                texel(xyz(place.position), place.position.w == 0 ? 0 : each.sewn.weights.y);
+        if (!predicted && !touched) continue;
+        vec3 at = xyz(place.position);
+        if (sewn.between.z >= 0) {
+            const glsl::vec2 left = left_of(where, sewn);
+            at = sewn_apart(at, xyz(sewn.gap), moves ? left.y : left.x);
+        }
+        state[Field::position][each.particle] = texel(at, place.position.w == 0 ? 0 : sewn.weights.y);
     }
 }
 
