@@ -139,15 +139,27 @@ uint late_rows(Strip strip) {
     return rows;
 }
 
-/// What colliders give to the motion of a particle, m: of more than three, the last also has what those beyond give.
-const int most_givers = 3;
-struct Given {
-    int number;
+/// What a collider gives to the motion of a particle, m, and the sums of what it gave to particles of the strip. Where
+/// there are no more colliders, each has a place; else places go to those that a particle touches, and the last of
+/// these has what those beyond give, too.
+const int most_givers = 3, giver_count = meshes_end < most_givers ? meshes_end : most_givers;
+const bool all_have_places = meshes_end <= most_givers;
+struct Giver {
+    int number;  // of what is given to the particle; -1: nothing is
     vec3 motion;
+    int summed;  // of what is in the sums; -1: nothing is
+    ImpulseSum impulse, moment;
 } givers[most_givers];
 
+void begin_sums(int k) {
+    givers[k].summed = -1;
+    givers[k].impulse = no_impulse();
+    givers[k].moment = no_impulse();
+}
+
 bool take_as(int k, int number, vec3 given) {
-    bool here = givers[k].number == number || givers[k].number < 0 || k == most_givers - 1;
+    bool here = givers[k].number == number || givers[k].number < 0 || k == giver_count - 1;
+    if (all_have_places) here = k == number;
     if (here) givers[k].number = givers[k].number < 0 ? number : givers[k].number;
     if (here) givers[k].motion = moved_position(givers[k].motion, given);
     return here;
@@ -156,40 +168,54 @@ bool take_as(int k, int number, vec3 given) {
 // A loop that is unrolled would lose that its sums are not to be contracted.
 void take(int number, vec3 given) {
     if (take_as(0, number, given)) return;
-    if (take_as(1, number, given)) return;
-    take_as(most_givers - 1, number, given);
+    if (giver_count > 1)
+        if (take_as(1, number, given)) return;
+    if (giver_count > 2) take_as(2, number, given);
 }
 
 void take_from_nobody() {
-    [[unroll]] for (int k = 0; k < most_givers; ++k) givers[k] = Given(-1, vec3(0.0f));
+    [[unroll]] for (int k = 0; k < most_givers; ++k) {
+        givers[k].number = -1;
+        givers[k].motion = vec3(0.0f);
+    }
 }
 
-/// The sums of what a collider gave to particles of the strip, and the collider.
+/// Adds the sums of a place to those of the frame.
+void book_giver(int k) {
+    if (givers[k].summed < 0) return;
+    book(impulse_first + givers[k].summed, 0, givers[k].impulse);
+    book(impulse_first + givers[k].summed, 3, givers[k].moment);
+    begin_sums(k);
+}
+
 float units;
-int giver = -1;
-ImpulseSum impulse = no_impulse(), moment = no_impulse();
 
-void book_giver() {
-    if (giver < 0) return;
-    book(impulse_first + giver, 0, impulse);
-    book(impulse_first + giver, 3, moment);
-    impulse = no_impulse();
-    moment = no_impulse();
+/// Adds what a collider gave to a particle, whose displacement was `displacement` then, to the sums.
+void add_motion_of(int k, vec4 start, vec3 displacement, float mass) {
+    if (givers[k].number < 0) return;
+    // On the default device a branch that nobody takes costs as much, so there is none where places do not change.
+    if (!all_have_places)
+        if (givers[k].number != givers[k].summed) book_giver(k);
+    givers[k].summed = givers[k].number;
+    ColliderRecord collider = early_colliders[k];
+    if (!all_have_places) collider = colliders[push.first + givers[k].number];
+    vec3 centre = vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
+    givers[k].impulse = with_impulse(givers[k].impulse, impulse_of_motion(givers[k].motion, mass), units);
+    vec3 moment = moment_about(start.xyz, displacement, centre, givers[k].motion);
+    givers[k].moment = with_impulse(givers[k].moment, impulse_of_motion(moment, mass), units);
 }
 
-/// Adds what colliders gave to a particle, whose displacement was `displacement` then, to the sums.
 void add_given(vec4 start, vec3 displacement) {
     float mass = reciprocal(start.w);
-    [[unroll]] for (int k = 0; k < most_givers; ++k) {
-        if (givers[k].number < 0) continue;
-        if (givers[k].number != giver) book_giver();
-        giver = givers[k].number;
-        ColliderRecord collider = colliders[push.first + giver];
-        vec3 centre = vec3(collider.pose_x.w, collider.pose_y.w, collider.pose_z.w);
-        impulse = with_impulse(impulse, impulse_of_motion(givers[k].motion, mass), units);
-        moment = with_impulse(
-            moment, impulse_of_motion(moment_about(start.xyz, displacement, centre, givers[k].motion), mass), units);
-    }
+    add_motion_of(0, start, displacement, mass);
+    if (giver_count > 1) add_motion_of(1, start, displacement, mass);
+    if (giver_count > 2) add_motion_of(2, start, displacement, mass);
+}
+
+void book_givers() {
+    book_giver(0);
+    if (giver_count > 1) book_giver(1);
+    if (giver_count > 2) book_giver(2);
 }
 
 /// Makes the cloth continue in backward Euler substeps. Reading first avoids an atomic, since most particles that come
@@ -250,7 +276,10 @@ bool meet_all(ivec2 texel, bool follows) {
 void main() {
     push.first = given.first + push.list;
     read_colliders(push.first);
-    if (books) units = impulse_units();
+    if (books) {
+        units = impulse_units();
+        [[unroll]] for (int k = 0; k < most_givers; ++k) begin_sums(k);
+    }
     int column = int(gl_GlobalInvocationID.x), first = int(gl_GlobalInvocationID.y) * strip_rows;
     if (column >= push.grid.x || first >= push.grid.y) return;
     Strip strip = strip_at(column, first, min(strip_rows, push.grid.y - first));
@@ -266,5 +295,5 @@ void main() {
         if (far != 0u) meet_all(ivec2(column, first + findLSB(far)), true);
         far &= max(far, 1u) - 1u;
     } while (far != 0u);
-    if (books) book_giver();
+    if (books) book_givers();
 }

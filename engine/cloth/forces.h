@@ -37,7 +37,7 @@ std::uint32_t impulse_row_count(const SceneDescription& scene);
 /// Returns the row of a cloth's first pin.
 std::uint32_t first_pin_row(const SceneDescription& scene);
 /// Returns the units of impulses to a metre of an inner particle's motion in a substep: 2^20 to a change of its
-/// velocity that 1 m/s^2 makes in a substep. So 2^43 m/s^2 times a particle fit, and gravity's own rounding is 1e-7.
+/// velocity that 1 m/s^2 makes in a substep. So 2^29 m/s^2 of a particle fit, and gravity's own rounding is 1e-7.
 float impulse_units(const SimulationModel& model);
 
 /// Returns whether some cloth has several pins, so that what holds it has to be split among them.

@@ -18,7 +18,7 @@ void book(int row, int number, ImpulseWords words) {
 
 /// Adds to three numbers of a row, from the `first` on.
 void book(int row, int first, ImpulseSum sum) {
-    book(row, first, sum.x);
-    book(row, first + 1, sum.y);
-    book(row, first + 2, sum.z);
+    book(row, first, words_of(sum.x));
+    book(row, first + 1, words_of(sum.y));
+    book(row, first + 2, words_of(sum.z));
 }

@@ -11,9 +11,14 @@ struct ImpulseWords {
     uint low, high;
 };
 
+/// The sum of a number's parts on the particles of an invocation, 64 at most: high * 2^24 + low.
+struct ImpulseNumber {
+    int high, low;
+};
+
 /// A vector of them.
 struct ImpulseSum {
-    ImpulseWords x, y, z;
+    ImpulseNumber x, y, z;
 };
 
 SHARED ImpulseWords words_sum(ImpulseWords a, ImpulseWords b) {
@@ -37,20 +42,24 @@ SHARED float words_number(ImpulseWords words) {
 }
 
 SHARED ImpulseSum no_impulse() {
-    ImpulseWords none = ImpulseWords(0u, 0u);
+    ImpulseNumber none = ImpulseNumber(0, 0);
     return ImpulseSum(none, none, none);
 }
 
-/// Returns the integer nearest to a number; 0 for what no integer holds.
-SHARED ImpulseWords impulse_words(float number) {
-    precise float size = abs(number);
-    if (!(size < 4.0e18f)) return ImpulseWords(0u, 0u);
-    precise float in_high = size * 2.3283064365386963e-10f;  // 2^-32
-    uint high = uint(in_high);
-    precise float rest = size - float(high) * 4294967296.0f + 0.5f;
-    uint low = uint(rest);
-    if (number >= 0.0f) return ImpulseWords(low, high);
-    return ImpulseWords(~low + 1u, ~high + (low == 0u ? 1u : 0u));
+SHARED ImpulseWords words_of(ImpulseNumber sum) {
+    return words_sum(ImpulseWords(uint(sum.high) << 24u, uint(sum.high >> 8)),
+                     ImpulseWords(uint(sum.low), sum.low < 0 ? ~0u : 0u));
+}
+
+/// Returns the sum with the integer nearest to a part; what is 2^49 or more counts as nothing. Processors convert
+/// signed numbers several times as fast as unsigned ones.
+SHARED ImpulseNumber with_part(ImpulseNumber sum, float part) {
+    precise float counted = abs(part) < 562949953421312.0f ? part : 0.0f;
+    precise float in_high = counted * 5.9604644775390625e-8f;  // 2^-24
+    int high = int(in_high);
+    precise float rest = counted - float(high) * 16777216.0f;
+    precise float low = rest + (rest < 0.0f ? -0.5f : 0.5f);
+    return ImpulseNumber(sum.high + high, sum.low + int(low));
 }
 
 /// Returns a particle's momentum, its mass in units of an inner particle's times h, m. `excess`: of end_velocity.h.
@@ -67,8 +76,7 @@ SHARED vec3 moment_of_mass(vec3 position, float mass) {
 /// Returns the sum with a particle's part, of which each unit of `units` counts.
 SHARED ImpulseSum with_impulse(ImpulseSum sum, vec3 part, float units) {
     precise vec3 scaled = part * units;
-    return ImpulseSum(words_sum(sum.x, impulse_words(scaled.x)), words_sum(sum.y, impulse_words(scaled.y)),
-                      words_sum(sum.z, impulse_words(scaled.z)));
+    return ImpulseSum(with_part(sum.x, scaled.x), with_part(sum.y, scaled.y), with_part(sum.z, scaled.z));
 }
 
 /// Returns the sum of what a pin gives to a cloth with what holds one spring of its particle, from which `edge` leads.

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,13 +10,11 @@
 #include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
-#include "support/sheets.h"
+#include "support/force_scenes.h"
 #include "twin/statistics.h"
 #include "twin/twin.h"
 
 namespace drape::test {
-
-inline constexpr SolverMethod all_methods[] = {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps};
 
 /// Simulates a scene by the twin and tells the statistics of each frame.
 class Simulated {
@@ -56,30 +53,5 @@ class Simulated {
     Twin twin_;
     std::uint32_t frame_ = 0;
 };
-
-inline SceneDescription by_method(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
-    scene.solver.method = method;
-    scene.solver.substeps = method == SolverMethod::explicit_steps ? 10 * substeps : substeps;
-    return scene;
-}
-
-/// A level sheet of 9 x 9 particles and 0.4 m a side about the origin, at a height.
-inline SceneDescription level_sheet(double height, double damping) {
-    SceneDescription scene = test::sheet(9, 9, 0.4, 0.4, 8);
-    Cloth& cloth = scene.cloths[0];
-    cloth.pins.clear();
-    cloth.stiffness = {false, 1000, 100, 0};
-    cloth.placement = {{-0.2, height, -0.2}, {1, 0, 0}, {0, 0, 1}};
-    cloth.damping = damping;
-    cloth.friction = 0.3;
-    cloth.thickness = 0.004;
-    return scene;
-}
-
-inline void expect_near(const Vec3& force, const Vec3& expected, double bound, const char* what) {
-    const double off = length(minus(force, expected)) / length(expected);
-    std::printf("[ measured ] %s: off by %.1e\n", what, off);
-    EXPECT_LT(off, bound) << what;
-}
 
 }  // namespace drape::test

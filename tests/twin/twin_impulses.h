@@ -18,7 +18,7 @@ class TwinImpulses {
     /// Adds a part of which each unit counts to three numbers of a row, from the `first` on.
     void add(int row, int first, glsl::vec3 part, float units) {
         const glsl::ImpulseSum sum = glsl::with_impulse(glsl::no_impulse(), part, units);
-        const std::array<glsl::ImpulseWords, 3> words{sum.x, sum.y, sum.z};
+        const std::array<glsl::ImpulseWords, 3> words{words_of(sum.x), words_of(sum.y), words_of(sum.z)};
         for (int k = 0; k < 3; ++k) {
             const auto place = static_cast<std::size_t>(row * glsl::impulse_columns + 2 * (first + k));
             const glsl::ImpulseWords whole =
