@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "world/motion.h"
+#include "world/key_value.h"
 
 namespace drape {
 namespace {
@@ -79,11 +79,8 @@ Camera camera_at(const Camera& camera, double time) {
     Camera still = camera;
     still.keys.clear();
     if (camera.keys.empty()) return still;
-    MotionPath path;
-    for (const CameraKey& key : camera.keys) path.keys.push_back({key.time, key.position, key.target});
-    const MotionKey now = key_at(path, time);
-    still.position = now.translate;
-    still.target = now.rotate;
+    still.position = value_at(camera.keys, &CameraKey::position, time);
+    still.target = value_at(camera.keys, &CameraKey::target, time);
     return still;
 }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "world/key_value.h"
+
 namespace drape {
 namespace {
 
@@ -33,7 +35,8 @@ SineCosine sine_cosine(double degrees) {
     }
 }
 
-Vec3 slope_at(const std::vector<MotionKey>& keys, std::size_t k, Vec3 MotionKey::*member) {
+template <class Key>
+Vec3 slope_at(const std::vector<Key>& keys, std::size_t k, Vec3 Key::*member) {
     Vec3 slope{0, 0, 0};
     if (k == 0 || k + 1 == keys.size()) return slope;
     const double before = keys[k].time - keys[k - 1].time, after = keys[k + 1].time - keys[k].time;
@@ -48,7 +51,8 @@ Vec3 slope_at(const std::vector<MotionKey>& keys, std::size_t k, Vec3 MotionKey:
     return slope;
 }
 
-Vec3 interpolate(const std::vector<MotionKey>& keys, std::size_t k, double time, Vec3 MotionKey::*member) {
+template <class Key>
+Vec3 interpolate(const std::vector<Key>& keys, std::size_t k, double time, Vec3 Key::*member) {
     const double span = keys[k + 1].time - keys[k].time;
     const double s = (time - keys[k].time) / span;
     const Vec3& from = keys[k].*member;
@@ -84,15 +88,20 @@ std::array<double, 9> rotation_matrix(const Vec3& degrees) {
     return matrix;
 }
 
-MotionKey key_at(const MotionPath& path, double time) {
-    const std::vector<MotionKey>& keys = path.keys;
-    if (keys.empty()) return {time, {}, {}};
+template <class Key>
+Vec3 value_at(const std::vector<Key>& keys, Vec3 Key::*value, double time) {
+    if (keys.empty()) return {};
     const auto later =
-        std::upper_bound(keys.begin(), keys.end(), time, [](double t, const MotionKey& key) { return t < key.time; });
-    if (later == keys.begin()) return {time, keys.front().translate, keys.front().rotate};
+        std::upper_bound(keys.begin(), keys.end(), time, [](double t, const Key& key) { return t < key.time; });
+    if (later == keys.begin()) return keys.front().*value;
     const auto k = static_cast<std::size_t>(later - keys.begin()) - 1;
-    if (later == keys.end() || time == keys[k].time) return {time, keys[k].translate, keys[k].rotate};
-    return {time, interpolate(keys, k, time, &MotionKey::translate), interpolate(keys, k, time, &MotionKey::rotate)};
+    if (later == keys.end() || time == keys[k].time) return keys[k].*value;
+    return interpolate(keys, k, time, value);
+}
+template Vec3 value_at(const std::vector<CameraKey>&, Vec3 CameraKey::*, double);
+
+MotionKey key_at(const MotionPath& path, double time) {
+    return {time, value_at(path.keys, &MotionKey::translate, time), value_at(path.keys, &MotionKey::rotate, time)};
 }
 
 bool rests(const MotionPath& path, double from, double to) {
