@@ -214,6 +214,26 @@ TEST(Report, ShowsWhatACutLeavesOfTwoCloths) {
     EXPECT_THAT(drape({"report", folder.out()}).err, HasSubstr("its positions are of another grid or of other frames"));
 }
 
+std::size_t occurrences(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+TEST(Report, OfASweepShowsTheLastPictures) {
+    const SceneFolder folder(small_scene(3));
+    write_text(
+        folder / "spec.json",
+        R"({"scene": "scene.json", "count": 2, "seed": 1, "vary": {"/cloths/0/areal_density": {"grid": [0.1, 0.2]}}})");
+    const auto run = [&](std::vector<std::string> arguments) { return drape(arguments, {.folder = folder.path()}); };
+    ASSERT_EQ(run({"sweep", "spec.json", "-o", "out", "-q", "--pictures"}).code, 0);
+    ASSERT_EQ(run({"report", "out"}).code, 0);
+    const std::string page = read_text(folder / "out/report.html");
+    EXPECT_THAT(page,
+                AllOf(HasSubstr("<img alt=\"0000: frame_0002.png\""), HasSubstr("<img alt=\"0001: frame_0002.png\"")));
+    EXPECT_EQ(occurrences(page, "<img "), 2);
+}
+
 TEST(Report, OfASweepHasALinePerRun) {
     const SceneFolder folder(small_scene(3));
     write_text(
@@ -228,7 +248,9 @@ TEST(Report, OfASweepHasALinePerRun) {
                             HasSubstr("<a href=\"runs/0000/\">0000</a>"),
                             HasSubstr("<a href=\"runs/0001/report.html\">0001</a>"),
                             HasSubstr("<th>/cloths/0/areal_density</th>"), HasSubstr("<td class=\"number\">0.2</td>"),
-                            HasSubstr("<th>stretch_max_worst</th>")));
+                            HasSubstr("<th>stretch_max_worst</th>"), Not(HasSubstr("Last pictures")),
+                            HasSubstr("<title>stretch_max_worst by /cloths/0/areal_density</title>")));
+    EXPECT_EQ(occurrences(page, "<title>runs</title>"), occurrences(page, " by /cloths/0/areal_density</title>"));
     const char* parse = "import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])";
     EXPECT_EQ(Running("/usr/bin/python3", {"-c", parse, "out/report.html"}, {.folder = folder.path()}).wait().code, 0);
 

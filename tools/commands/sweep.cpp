@@ -32,7 +32,7 @@ struct SweepOptions {
         return devices.empty() ? std::string() : devices[process % devices.size()];
     }
     std::vector<std::string> formats;  ///< none: the data set's alone, or npz
-    bool deflates = false;
+    bool deflates = false, pictures = false;
     std::optional<std::string> indices;
     std::uint32_t jobs = 0;
     bool dataset = false, resume = false, collect = false, list = false, count = false, quiet = false;
@@ -82,6 +82,7 @@ RunRequest request_of(const SweepOptions& options, const sweep::SweepSpec& spec,
     if (options.dataset && std::ranges::find(request.formats, trajectory) == request.formats.end())
         request.formats.emplace_back(trajectory);
     if (request.formats.empty()) request.formats = {"npz"};
+    if (options.pictures) request.formats.emplace_back("png");
     request.deflates = options.deflates;
     request.quiet = true;
     request.message = print_message;
@@ -241,6 +242,7 @@ std::vector<std::string> command_of(const SweepOptions& options, const std::vect
     if (!options.devices.empty()) command.insert(command.end(), {"--device", options.device(process)});
     if (options.dataset) command.emplace_back("--dataset");
     if (options.deflates) command.emplace_back("--compress");
+    if (options.pictures) command.emplace_back("--pictures");
     if (!options.formats.empty())
         command.insert(command.end(), {"--export", fmt::format("{}", fmt::join(options.formats, ","))});
     return command;
@@ -401,6 +403,7 @@ void add_sweep(Program& program) {
     add_option(command, "--jobs", "N", "Processes at a time; default: one per core", whole(1, options->jobs));
     add_format_option(command, "What each run writes; default: npz, with --dataset nothing more", options->formats);
     add_compress_option(command, options->deflates);
+    add_flag(command, "--pictures", "Each run draws its pictures too, in a process of its own", options->pictures);
     add_flag(command, "--dataset",
              "The layout of MeshGraphNets' flag_simple, beside what --export says: dataset/meta.json and a trajectory "
              "per run",

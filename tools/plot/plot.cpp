@@ -125,8 +125,9 @@ class Drawing {
     }
 
     void place_axes() {
-        const double start = plot_.logarithmic ? INFINITY : 0;
-        std::array<double, 2> low{start, start}, high{plot_.logarithmic ? 0 : plot_.x_last, 0};
+        const bool from_zero = !plot_.logarithmic && plot_.from_zero;
+        const double start = from_zero ? 0 : INFINITY, end = from_zero || plot_.logarithmic ? 0 : -INFINITY;
+        std::array<double, 2> low{start, start}, high{from_zero ? plot_.x_last : end, end};
         const auto include = [&](std::size_t k, double value) {
             low[k] = std::min(low[k], value);
             high[k] = std::max(high[k], value);
@@ -138,6 +139,8 @@ class Drawing {
             if (drawable({1, level.value})) include(1, level.value);
         for (std::size_t k = 0; k < 2 && plot_.logarithmic; ++k)
             if (high[k] <= 0) low[k] = 0.1, high[k] = 10;
+        for (std::size_t k = 0; k < 2; ++k)
+            if (low[k] > high[k]) low[k] = high[k] = 0;
         const auto axis = plot_.logarithmic ? logarithmic_axis : linear_axis;
         const double top = (legend_.empty() ? legend_top : legend_.back()[1]) + 16;
         x_ = axis(low[0], high[0], left, right);
@@ -198,7 +201,7 @@ class Drawing {
         const Curve& curve = plot_.curves[index];
         const std::size_t look = curve.look.value_or(index) % colours.size();
         const auto [legend_x, legend_y] = legend_[index];
-        const bool marked = plot_.logarithmic || curve.points.size() == 1;
+        const bool marked = plot_.logarithmic || !curve.joined || curve.points.size() == 1;
         const auto marker = [&](double x, double y) {
             return marked ? fmt::format("<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\"/>", x, y, markers[look])
                           : std::string();
@@ -207,7 +210,7 @@ class Drawing {
         for (std::size_t k = 0; k < curve.points.size(); ++k) {
             if (!drawable(curve.points[k])) continue;
             const double x = x_.place(curve.points[k][0]), y = y_.place(curve.points[k][1]);
-            places += fmt::format("{:.1f},{:.1f} ", x, y);
+            if (curve.joined) places += fmt::format("{:.1f},{:.1f} ", x, y);
             const bool doubtful = k < curve.doubtful.size() && curve.doubtful[k];
             marks += doubtful ? fmt::format("<g class=\"doubtful\" fill=\"#ffffff\" stroke=\"{}\">{}</g>",
                                             colours[look], marker(x, y))
@@ -218,7 +221,7 @@ class Drawing {
         return fmt::format(
             "<g class=\"series\" fill=\"{}\"><title>{}</title>\n<polyline points=\"{}\" {}/>\n{}{}\n{}</g>\n",
             colours[look], xml_text(curve.name), places, line,
-            stroke(legend_x, legend_y, legend_x + 28, legend_y, line), marks,
+            curve.joined ? stroke(legend_x, legend_y, legend_x + 28, legend_y, line) : std::string(), marks,
             svg_text(legend_x + 33, legend_y + 4, curve.name, "fill=\"#202020\""));
     }
 

@@ -16,6 +16,7 @@ struct Curve {
     std::vector<bool> doubtful{};                 ///< by point: drawn hollow; empty: none
     std::optional<std::size_t> look{};            ///< colour and marker, of 8; default: the curve's place
     bool dashed = false;
+    bool joined = true;  ///< false: marks alone
 };
 
 /// A dashed horizontal line at a value worth comparing with.
@@ -29,7 +30,8 @@ struct Plot {
     std::vector<Curve> curves{};
     std::vector<double> slopes{};  ///< of reference lines y ~ x^slope; logarithmic axes only
     std::vector<Level> levels{};
-    bool logarithmic = true;  ///< both axes; linear ones begin at zero
+    bool logarithmic = true;  ///< both axes
+    bool from_zero = true;    ///< linear axes begin there
     double x_last = 0;        ///< linear: where the axis ends at least, so that plots beside each other agree
 };
 

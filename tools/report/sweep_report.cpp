@@ -8,7 +8,9 @@
 #include "output/json_file.h"
 #include "output/json_text.h"
 #include "output/xml_text.h"
+#include "plot/plot.h"
 #include "report/page.h"
+#include "report/run_folder.h"
 
 namespace drape::report {
 
@@ -46,6 +48,73 @@ std::set<std::string> columns_of(const std::vector<SweepRun>& runs, const char* 
         if (run.record[key].isObject())
             for (const std::string& name : run.record[key].getMemberNames()) names.insert(name);
     return names;
+}
+
+/// Names of the numbers below a key of which at least two runs have different ones.
+std::vector<std::string> varied(const std::vector<SweepRun>& runs, const char* key) {
+    std::vector<std::string> names;
+    for (const std::string& name : columns_of(runs, key)) {
+        std::set<double> found;
+        for (const SweepRun& run : runs)
+            if (const Json::Value& value = run.record[key][name]; value.isNumeric()) found.insert(value.asDouble());
+        if (found.size() > 1) names.push_back(name);
+    }
+    return names;
+}
+
+plot::Plot scatter(const std::vector<SweepRun>& runs, const std::string& drawn, const std::string& result) {
+    plot::Plot plot{.title = fmt::format("{} by {}", result, drawn),
+                    .x_label = drawn,
+                    .y_label = result,
+                    .logarithmic = false,
+                    .from_zero = false};
+    plot::Curve& curve = plot.curves.emplace_back(plot::Curve{.name = "runs", .joined = false});
+    for (const SweepRun& run : runs) {
+        const Json::Value &x = run.record["parameters"][drawn], &y = run.record["values"][result];
+        if (x.isNumeric() && y.isNumeric()) curve.points.push_back({x.asDouble(), y.asDouble()});
+    }
+    return plot;
+}
+
+constexpr std::size_t most_plots = 12;
+
+/// Returns a plot for each number that was drawn and each result that differs, as many as a page bears.
+std::string scatters(const std::vector<SweepRun>& runs) {
+    std::string html;
+    std::size_t count = 0;
+    for (const std::string& drawn : varied(runs, "parameters"))
+        for (const std::string& result : varied(runs, "values"))
+            if (result != "bytes" && result != "frames" && count++ < most_plots)
+                html += plot::svg_of(scatter(runs, drawn, result));
+    if (html.empty()) return {};
+    const std::string left_out =
+        count > most_plots ? fmt::format("<p>{} more are not shown.</p>\n", count - most_plots) : std::string();
+    return fmt::format("<section>\n<h2>Results by what was drawn</h2>\n<div class=\"plots\">\n{}</div>\n{}</section>\n",
+                       html, left_out);
+}
+
+constexpr std::size_t most_thumbnails = 48;
+constexpr std::uint32_t thumbnail_width = 240;
+
+/// Returns the last pictures of runs that are done, of more than a page bears of evenly chosen ones.
+std::string thumbnails(const fs::path& sweep, const std::vector<SweepRun>& runs) {
+    std::vector<std::string> done;
+    for (const SweepRun& run : runs) {
+        std::error_code ignored;
+        if (run.record["exit_code"].asInt() == 0 && fs::exists(sweep / "runs" / run.number / "manifest.json", ignored))
+            done.push_back(run.number);
+    }
+    std::string html;
+    for (const std::size_t k : evenly_chosen(done.size(), most_thumbnails)) {
+        const fs::path folder = sweep / "runs" / done[k];
+        const RunFolder run = read_run_folder(folder);
+        if (run.pictures.empty()) continue;
+        html += fmt::format(
+            "<figure><img alt=\"{0}: {1}\" src=\"data:image/png;base64,{2}\"/><figcaption>{0}</figcaption></figure>\n",
+            done[k], xml_text(run.pictures.back()), small_picture(folder / run.pictures.back(), thumbnail_width));
+    }
+    if (html.empty()) return {};
+    return fmt::format("<section>\n<h2>Last pictures</h2>\n<div class=\"sheet\">\n{}</div>\n</section>\n", html);
 }
 
 std::string cell(const Json::Value& value) {
@@ -97,10 +166,10 @@ std::string sweep_html(const fs::path& path) {
                                           sweep["count"].asInt64(), xml_text(sweep["scene"].asString()));
     return page_of("Sweep " + path.string(),
                    fmt::format("<section>\n<h2>Result</h2>\n<p class=\"{}\">{}</p>\n</section>\n"
-                               "<section>\n<h2>Runs</h2>\n{}</section>\n<section>\n<h2>Specification</h2>\n"
+                               "{}{}<section>\n<h2>Runs</h2>\n{}</section>\n<section>\n<h2>Specification</h2>\n"
                                "<pre>{}</pre>\n</section>\n",
-                               failed == 0 ? "good" : "bad", state, table_of(path, runs),
-                               xml_text(json_text(sweep["specification"]))));
+                               failed == 0 ? "good" : "bad", state, thumbnails(path, runs), scatters(runs),
+                               table_of(path, runs), xml_text(json_text(sweep["specification"]))));
 }
 
 }  // namespace drape::report

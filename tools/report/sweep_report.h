@@ -1,4 +1,5 @@
-// A sweep as one HTML page: how many runs are done, and a line per run with its values.
+// A sweep as one HTML page: how many runs are done, their last pictures, scatter plots of results by what was drawn,
+// and a line per run with its values.
 #pragma once
 
 #include <filesystem>
