@@ -52,7 +52,7 @@ bool has_bodies(const SimulationModel& model, std::size_t cloth) {
 std::vector<glsl::BodyConstants> body_constants(const SimulationModel& model, std::size_t member) {
     std::vector<glsl::BodyConstants> all;
     const MemberBodies& own = model.bodies[member];
-    for (const auto& [number, body] : own.bodies) {
+    for (const auto& [number, body, acts] : own.bodies) {
         const Vec3 inertia = inertia_of(body);
         double reach = 0;  // of what contact keeps cloth from, too
         for (std::size_t list = 0; list < own.list_count; ++list)
@@ -71,7 +71,7 @@ std::vector<glsl::vec4> bodies_at_start(const SimulationModel& model, std::size_
     std::vector<glsl::vec4> all;
     const double h = substep_length(model);
     const MemberBodies& own = model.bodies[member];
-    for (const auto& [number, body] : own.bodies) {
+    for (const auto& [number, body, acts] : own.bodies) {
         const ColliderPose pose = collider_pose(body, 0);
         const Vec3 middle = plus(pose.center, rotate(pose.rotation, mass_properties(body.shape)->center));
         const Vec3 inertia = inertia_of(body);
@@ -89,8 +89,29 @@ std::vector<glsl::vec4> bodies_at_start(const SimulationModel& model, std::size_
                 static_cast<float>(middle[k] - double{component(state[glsl::body_position], k)});
         state[glsl::body_turn] = texel(quaternion_of(pose.rotation));
         state[glsl::body_velocity] = state[glsl::body_last_velocity] = texel(velocity, 0);
-        state[glsl::body_spin] = state[glsl::body_last_spin] = texel(spin, 0);
+        state[glsl::body_spin] = texel(spin, 0);
+        state[glsl::body_last_spin] = texel(spin, h);
         all.insert(all.end(), state.begin(), state.end());
+    }
+    return all;
+}
+
+double most_given(const Body& body, double seconds) {
+    const BodyActions& acts = body.acts;
+    const Vec3 inertia = inertia_of(body.collider);
+    const double reach = shape_geometry(body.collider.shape).reach, least = std::ranges::min(inertia);
+    const double push = length(acts.impulse) + seconds * length(acts.force);
+    const double twist = length(acts.twist) + seconds * length(acts.moment);
+    const double set = acts.sets ? length(acts.velocity) + reach * length(acts.turning) : 0;
+    return set + push / *body.collider.mass + reach * twist / least;
+}
+
+std::vector<glsl::BodyAction> body_actions(const SimulationModel& model) {
+    std::vector<glsl::BodyAction> all;
+    for (const Body& body : model.bodies.front().bodies) {
+        const BodyActions& acts = body.acts;
+        all.push_back({texel(acts.force, acts.sets ? 1 : 0), texel(acts.moment, 0), texel(acts.impulse, 0),
+                       texel(acts.twist, 0), texel(acts.velocity, 0), texel(acts.turning, 0)});
     }
     return all;
 }
@@ -107,6 +128,10 @@ glsl::BodyMovePush body_move_push(const SimulationModel& model, std::size_t memb
             static_cast<int>(kind_ends(model.scene.colliders)[glsl::kind_plane]),
             model.weighs ? static_cast<int>(weather) : 0,
             static_cast<float>(recovery_speed * substep_length(model)),
+            static_cast<int>(member * own.bodies.size()),
+            substep == 0 ? 1 : 0,
+            0,
+            0,
             0};
 }
 
@@ -119,12 +144,13 @@ glsl::BodyStrikePush body_strike_push(const SimulationModel& model, const ClothM
 std::vector<BodyState> body_states(const SimulationModel& model, std::span<const float> state, std::uint32_t frame) {
     std::vector<BodyState> all;
     const MemberBodies& own = model.bodies.front();
-    const double h = substep_length(model), time = frame / model.scene.time.fps;
-    const Vec3 half_fall = times(0.5 * h, gravity_at(model.scene, time));
+    const double time = frame / model.scene.time.fps;
     for (std::size_t k = 0; k < own.bodies.size(); ++k) {
-        const auto& [number, body] = own.bodies[k];
+        const auto& [number, body, acts] = own.bodies[k];
         const std::size_t length = std::size_t{4} * glsl::body_texels;
         const std::span<const float> row = state.subspan(k * length, length);
+        const double h = double{row[std::size_t{4} * glsl::body_last_spin + 3]};
+        const Vec3 half_fall = times(0.5 * h, gravity_at(model.scene, time));
         BodyState now{.collider = number};
         const float* const turn = &row[std::size_t{4} * glsl::body_turn];
         now.turn = {double{turn[0]}, double{turn[1]}, double{turn[2]}, double{turn[3]}};
@@ -137,9 +163,9 @@ std::vector<BodyState> body_states(const SimulationModel& model, std::span<const
         // Halfway between the motion of the last substep and that of the next one.
         now.velocity = mean(glsl::body_last_velocity, glsl::body_velocity);
         const bool lies = row[std::size_t{4} * glsl::body_last_velocity + 3] != 0;  // on a plane, which holds it next
-        if (!lies) now.velocity = plus(now.velocity, half_fall);
+        if (!lies) now.velocity = plus(now.velocity, plus(half_fall, times(0.5 * h / *body.mass, acts.force)));
         now.momentum = times(*body.mass, now.velocity);
-        const Vec3 spin = mean(glsl::body_last_spin, glsl::body_spin);
+        const Vec3 spin = plus(mean(glsl::body_last_spin, glsl::body_spin), times(lies ? 0 : 0.5 * h, acts.moment));
         now.angular_momentum = plus(spin, cross(middle, now.momentum));
         const Vec3 inertia = inertia_of(body);
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -16,10 +16,28 @@ namespace drape {
 struct SimulationModel;
 struct ClothModel;
 
+/// What actions do to a body in a frame.
+struct BodyActions {
+    Vec3 force{}, moment{};      ///< N and, about the centre of mass, N m, in every substep
+    Vec3 impulse{}, twist{};     ///< N s and N m s, as the frame begins
+    bool sets = false;           ///< the frame begins with these:
+    Vec3 velocity{}, turning{};  ///< m/s, rad/s
+    double given = 0;            ///< m/s, the most that actions have so far added to the speed of any point of it
+
+    /// Writes or reads them, by a ByteWriter or a ByteReader.
+    template <class Archive>
+    void transfer(Archive& archive) {
+        for (Vec3* const each : {&force, &moment, &impulse, &twist, &velocity, &turning})
+            archive((*each)[0], (*each)[1], (*each)[2]);
+        archive(sets, given);
+    }
+};
+
 /// A collider with a mass.
 struct Body {
     std::size_t number;  ///< among the model's colliders
     Collider collider;   ///< its true shape
+    BodyActions acts = {};
 };
 
 /// The bodies of a member (ClothModel::member), and what its passes need of its scene.
@@ -40,6 +58,11 @@ std::size_t body_count(const SimulationModel& model);
 std::vector<glsl::BodyConstants> body_constants(const SimulationModel& model, std::size_t member);
 /// Returns the state at time 0, body by body.
 std::vector<glsl::vec4> bodies_at_start(const SimulationModel& model, std::size_t member);
+
+/// Returns the most that actions can add to the speed of a point of a body in a frame of so many seconds, m/s.
+double most_given(const Body& body, double seconds);
+/// Returns what actions do in a frame, body by body.
+std::vector<glsl::BodyAction> body_actions(const SimulationModel& model);
 
 glsl::BodyMovePush body_move_push(const SimulationModel& model, std::size_t member, std::uint32_t substep);
 glsl::BodyStrikePush body_strike_push(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep);

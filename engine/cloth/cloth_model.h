@@ -19,6 +19,7 @@ struct ModelOptions {
     bool air = false;     ///< move the air, which is there even if the scene has no wind
     bool weight = false;  ///< change gravity
     bool holds = false;   ///< have pins let go and take again
+    bool bodies = false;  ///< push bodies that cloth moves
     bool acts = false;    ///< any of it, so that each frame is done before anything is known of the next
     std::vector<std::size_t> hands = {};  ///< the cloth of each hand
 };

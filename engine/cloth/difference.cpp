@@ -20,6 +20,13 @@ double difference_of(std::span<const glsl::DifferenceRecord> partials) {
     return mass > 0 ? std::sqrt(moved / mass) : 0.0;
 }
 
+double difference_with_bodies(double of_cloth, std::span<const float> squares) {
+    double largest = of_cloth;
+    // A NaN stays one.
+    for (const float square : squares) largest = square <= largest * largest ? largest : std::sqrt(double{square});
+    return largest;
+}
+
 float disturbance(const ClothModel& cloth) {
     const double side =
         std::max(cloth.spacing[0] * (cloth.grid.columns() - 1), cloth.spacing[1] * (cloth.grid.rows() - 1));

@@ -15,6 +15,10 @@ std::uint32_t difference_count(const Grid& grid);
 /// Returns the root mean square, weighted by mass, of the distance between two runs' particles, m.
 double difference_of(std::span<const glsl::DifferenceRecord> partials);
 
+/// Returns that of a cloth, or the distance of the body that is farthest from where the other run has it, whichever is
+/// larger, m. `squares`: m^2, of the bodies.
+double difference_with_bodies(double of_cloth, std::span<const float> squares);
+
 /// Returns the largest displacement, m, of the disturbed run's particles along each axis.
 float disturbance(const ClothModel& cloth);
 

@@ -198,6 +198,7 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
     if (std::ranges::any_of(model.cloths, &ClothModel::stiffens))
         for (const Cloth& cloth : scene.cloths)
             inputs.stiffness.push_back(static_cast<float>(stiffness_factor(scene, cloth, frame)));
+    inputs.body_actions = model.options.bodies ? body_actions(model) : std::vector<glsl::BodyAction>();
     inputs.forms = model.mesh_fields.forms(frame_start, frame / scene.time.fps);
     // Distances change at constant speed from those at the frame's start to those at its end, whatever poses lie
     // between.

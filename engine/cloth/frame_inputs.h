@@ -44,6 +44,7 @@ struct FrameInputs {
     std::vector<glsl::ColliderRecord> colliders;  ///< by substep, and within it list by list, in the scene's order
     std::uint32_t collider_sets = 1;         ///< number of substeps that have their own records; 1: all share one set
     std::shared_ptr<const FormLists> forms;  ///< for meshes that deform; null: there are none
+    std::vector<glsl::BodyAction> body_actions;      ///< by member and body; empty: no action pushes bodies
     std::vector<std::vector<glsl::PinMotion>> pins;  ///< by cloth: substep by substep, pin by pin
 };
 

@@ -170,6 +170,8 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
     if (model.sewn_count > 0) return "sewn cloths take turns";
     if (model.closed_loop() && model.self_contact)
         return "method auto does a frame again where lists of contact are too short, in each member by itself";
+    if (model.closed_loop() && body_count(model) > 0)
+        return "method auto does frames of one member again, and bodies that cloth moves are moved in all at once";
     if (model.has_companions() && !model.closed_loop()) return "companion runs estimate the error of each member";
     const auto is_large = [](const ClothModel& cloth) { return cloth.grid.particle_count() > most_meeting_particles; };
     if (model.self_contact && model.options.device == DeviceKind::cpu && std::ranges::any_of(model.cloths, is_large))
@@ -187,10 +189,12 @@ std::optional<std::string> sharing_obstacle(const SimulationModel& model) {
 void join_inputs(const SimulationModel& all, const std::vector<FrameInputs>& members, FrameInputs& joined) {
     joined.wind.clear();
     joined.colliders.clear();
+    joined.body_actions.clear();
     joined.pins.resize(all.cloths.size());
     auto pins = joined.pins.begin();
     for (const FrameInputs& one : members) {
         joined.wind.insert(joined.wind.end(), one.wind.begin(), one.wind.end());
+        joined.body_actions.insert(joined.body_actions.end(), one.body_actions.begin(), one.body_actions.end());
         pins = std::ranges::copy(one.pins, pins).out;
     }
     const std::uint32_t sets = all.colliders_move ? all.scene.solver.substeps : 1;

@@ -91,6 +91,8 @@ void SimulationModel::take_actions(const SimulationModel& acted) {
         scene.colliders[k].path = acted.scene.colliders[k].path;
         for (std::vector<KeptCollider>& list : kept_colliders) list[k].collider.path = scene.colliders[k].path;
     }
+    for (std::size_t k = 0; k < bodies.front().bodies.size(); ++k)
+        bodies.front().bodies[k].acts = acted.bodies.front().bodies[k].acts;
     for (std::size_t k = 0; k < cloths.size(); ++k) {
         cloths[k].dynamic_pins = acted.cloths[k].dynamic_pins;
         scene.cloths[k].loads = acted.scene.cloths[k].loads;

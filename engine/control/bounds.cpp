@@ -197,7 +197,7 @@ constexpr ClothBound cloth_rows[] = {
                "ten times (tips whip) the sum of what may move it, and 0.1 m/s: its speed at the start, g t (of held "
                "cloth at most 2 sqrt(g d) with its diagonal d), the wind, pins, twice the colliders and the cloths "
                "that it meets or is sewn to, and the speed at which strain by pins, colliders, the start or softer "
-               "keys comes back"},
+               "keys comes back; a collider with a mass has that of its start, of its fall and of actions"},
      .beyond = Beyond::again,
      .place = &Statistics::fastest,
      .value = [](const Seen& s) { return s.now().largest_speed; },

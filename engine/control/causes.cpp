@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vectors.h"
+#include "cloth/bodies.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/frame_inputs.h"
 #include "cloth/loads.h"
@@ -34,6 +35,27 @@ struct Ways {
     double pins = 0, surfaces = 0, centers = 0;
 };
 
+/// Returns the largest speed, m/s, that the centre of a body can have by a time, s, as it starts, falls and is pushed.
+/// What touches held cloth has fallen no farther than from its start to the end of twice the cloth's diagonal.
+double fastest(const SimulationModel& model, const Causes::Start& start, const Body& body, double time) {
+    const double first = length(body.collider.velocity) + body.acts.given,
+                 pull = length(strongest_gravity(model.scene));
+    const double fallen = first + pull * time;
+    if (!start.held) return fallen;
+    const double way = distance(collider_pose(body.collider, 0).center, start.mean) + 2 * start.diagonal;
+    return std::min(fallen, std::sqrt(first * first + 2 * pull * way));
+}
+
+/// Adds the motion of the bodies that cloth moves, whose places only the device knows.
+void add_bodies(const SimulationModel& model, const Causes::Start& start, double from, double to, Ways& most) {
+    for (const Body& body : model.bodies.front().bodies) {
+        const double center = fastest(model, start, body, to) * (to - from);
+        const double turn = length(body.collider.angular_velocity) * shape_geometry(body.collider.shape).reach;
+        most.centers = std::max(most.centers, center);
+        most.surfaces = std::max(most.surfaces, center + turn * (to - from));
+    }
+}
+
 Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::Start& start, double from, double to) {
     Ways most;
     for (const DynamicPin& pin : cloth.dynamic_pins) {
@@ -54,7 +76,7 @@ Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::S
             std::max(most.pins, length({gap.x, gap.y, gap.z}) * (opening_at(from, closed) - opening_at(to, closed)));
     }
     for (const Collider& collider : model.scene.colliders) {
-        if (!collider.moves()) continue;
+        if (!collider.moves() || collider.mass) continue;
         const ColliderPose before = collider_pose(collider, from), now = collider_pose(collider, to);
         const ShapeGeometry shape = shape_geometry(collider.shape);
         const double center = distance(before.center, now.center) + deformed(collider, from, to);
@@ -62,6 +84,7 @@ Ways ways(const SimulationModel& model, const ClothModel& cloth, const Causes::S
         most.centers = std::max(most.centers, center);
         most.surfaces = std::max(most.surfaces, center + turned(before.rotation, now.rotation, reach));
     }
+    add_bodies(model, start, from, to, most);
     return most;
 }
 

@@ -84,6 +84,7 @@ std::optional<HeldInside> held_inside(const SimulationModel& model, std::size_t 
     if (model.scene.colliders.empty()) return found;
     const std::vector<Held> held = held_particles(model.cloths[cloth], time);
     for (std::size_t index = 0; index < model.scene.colliders.size() && !held.empty(); ++index) {
+        if (model.scene.colliders[index].mass) continue;  // only the device knows where it is
         const Collider collider = formed(model.scene.colliders[index], time);
         const ColliderPose pose = collider_pose(collider, time);
         const double reach = shape_geometry(collider.shape).reach;
@@ -138,10 +139,13 @@ std::optional<Finding> held_apart(const SimulationModel& model, std::size_t inde
 }
 
 std::optional<Finding> pinched(const SimulationModel& model, std::size_t cloth, std::uint32_t frame) {
-    for (std::size_t a = 0; a < model.scene.colliders.size(); ++a)
-        for (std::size_t b = 0; b < a; ++b)
+    const std::vector<Collider>& all = model.scene.colliders;
+    for (std::size_t a = 0; a < all.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            if (all[a].mass || all[b].mass) continue;  // only the device knows where they are
             if (auto found = pinched_between(model, model.scene.cloths[cloth], b, a, frame / model.scene.time.fps))
                 return found;
+        }
     return std::nullopt;
 }
 

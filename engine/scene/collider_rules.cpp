@@ -73,10 +73,6 @@ bool check_bodies(const Members& members, const SceneDescription& scene) {
         const Collider& body = scene.colliders[k];
         if (!body.mass) continue;
         const SceneNode mass = mass_of(members["colliders"], scene, k);
-        if (scene.solver.method == SolverMethod::automatic)
-            return mass.fail("expected no mass where solver.method is auto: name a method for bodies that cloth moves");
-        if (scene.solver.estimate_error.value_or(false))
-            return mass.fail("expected no mass where solver.estimate_error is true");
         const double least = least_mass_ratio * heaviest * surface_area(body.shape);
         if (*body.mass < least)
             return mass.fail(

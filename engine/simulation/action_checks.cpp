@@ -50,6 +50,20 @@ void check_pressures(std::span<const double> told, const SimulationModel& model,
         }
 }
 
+void check_bodies(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                  std::size_t members) {
+    const std::size_t bodies = body_count(model), each = numbers_of_key * bodies;
+    const std::size_t told = actions.body_forces.size() + actions.body_impulses.size() +
+                             actions.body_velocities.size() + actions.body_sets.size();
+    check_list(told > 0 && !controls.bodies ? 1 : 0, "bodies", controls.bodies, 0, members);
+    check_numbers(actions.body_forces, "body_forces", true, each, members);
+    check_numbers(actions.body_impulses, "body_impulses", true, each, members);
+    check_numbers(actions.body_velocities, "body_velocities", true, each, members);
+    check_list(actions.body_sets.size(), "body_sets", true, bodies, members);
+    if (!actions.body_sets.empty() && actions.body_velocities.empty())
+        throw ActionError("actions: body_sets: expected body_velocities too, got none", 0);
+}
+
 /// A pin or hand of one cloth, in the step before and in this one.
 struct Holder {
     std::string name;
@@ -199,6 +213,7 @@ void check_actions(const EnsembleActions& actions, const EnsembleControls& contr
                   count);
     check_numbers(actions.hands, "hands", hands > 0, numbers_of_key * hands, count);
     check_numbers(actions.loads, "loads", controls.loads, 3 * load_count(model), count);
+    check_bodies(actions, controls, model, count);
     check_list(actions.holds.size(), "holds", controls.holds, pins, count);
     check_list(actions.grasps.size(), "grasps", hands > 0, numbers_of_grasp * hands, count);
     for (std::size_t number = 0; number < count; ++number) {

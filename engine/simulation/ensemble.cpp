@@ -21,6 +21,17 @@ namespace {
 
 constexpr const char* member_part = "member";
 
+template <class Archive>
+void transfer_body(Archive& archive, BodyState& body) {
+    auto collider = static_cast<std::uint64_t>(body.collider);
+    archive(collider, body.turn[0], body.turn[1], body.turn[2], body.turn[3], body.kinetic_energy,
+            body.potential_energy);
+    for (Vec3* const each :
+         {&body.position, &body.velocity, &body.angular_velocity, &body.momentum, &body.angular_momentum})
+        archive((*each)[0], (*each)[1], (*each)[2]);
+    body.collider = static_cast<std::size_t>(collider);
+}
+
 /// Writes or reads what the host knows of a member, by a ByteWriter or a ByteReader. Returns false if that is
 /// impossible.
 template <class Archive>
@@ -39,6 +50,7 @@ bool transfer(Archive& archive, MemberProgress& member, MemberMotion& motion) {
     motion.transfer(archive);
     if (member.self_contact) transfer_report(archive, *member.self_contact);
     for (ClothStatistics& statistics : member.statistics) transfer_statistics(archive, statistics);
+    for (BodyState& body : member.bodies) transfer_body(archive, body);
     return member.watch->transfer(archive);
 }
 
@@ -115,6 +127,8 @@ const std::vector<ClothStatistics>& Ensemble::statistics(std::size_t member) con
     return parts_->members.at(member)->statistics;
 }
 
+const std::vector<BodyState>& Ensemble::bodies(std::size_t member) const { return parts_->members.at(member)->bodies; }
+
 const std::optional<SelfContactReport>& Ensemble::self_contact(std::size_t member) const {
     return parts_->members.at(member)->self_contact;
 }
@@ -185,6 +199,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         if (part == states[k].end()) throw Error("the saved state is not of an ensemble's member");
         progress.emplace_back().watch = std::make_unique<Watch>(member.model);
         progress.back().statistics.resize(member.model.cloths.size());
+        progress.back().bodies.resize(body_count(member.model));
         progress.back().self_contact = starting_report(member.model);
         motions.emplace_back(member.model);
         ByteReader reader(part->second);
@@ -220,6 +235,7 @@ std::span<const std::uint8_t> Ensemble::picture(std::size_t number) {
     }
     FinishedFrame frame;
     frame.frame = member.frame;
+    frame.bodies = member.bodies;
     std::vector<std::vector<float>> kept;
     for (std::size_t cloth = 0; cloth < member.model.cloths.size(); ++cloth) {
         const MemberArray all_of = positions(cloth);

@@ -13,6 +13,7 @@ MemberMotion::MemberMotion(const SimulationModel& model) : wind(model.scene.wind
     for (const ClothModel& cloth : model.cloths)
         pins.insert(pins.end(), cloth.dynamic_pins.begin(), cloth.dynamic_pins.end());
     for (const Collider& collider : model.scene.colliders) colliders.push_back(collider.path);
+    for (const Body& body : model.bodies.front().bodies) bodies.push_back(body.acts);
     for (const Cloth& cloth : model.scene.cloths) loads.insert(loads.end(), cloth.loads.begin(), cloth.loads.end());
 }
 
@@ -28,6 +29,7 @@ void MemberMotion::put_into(SimulationModel& model) const {
             each = *pin++;
             if (!each.hand) model.scene.cloths[k].pins[each.number].path = each.path;  // pictures draw these paths
         }
+    for (std::size_t k = 0; k < bodies.size(); ++k) model.bodies.front().bodies[k].acts = bodies[k];
     for (std::size_t k = 0; k < colliders.size(); ++k) {
         model.scene.colliders[k].path = colliders[k];
         for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = colliders[k];
@@ -51,6 +53,7 @@ void Member::judge() {
     FinishedFrame finished;
     finished.frame = frame;
     finished.statistics = statistics;
+    finished.bodies = bodies;
     finished.effort = effort;
     failure = frame_failure(model, *watch, finished);
 }

@@ -44,6 +44,7 @@ struct MemberMotion {
             pin.release = released ? std::optional(release) : std::nullopt;
         }
         for (MotionPath& path : colliders) transfer_path(archive, path);
+        for (BodyActions& each : bodies) each.transfer(archive);
     }
 
     template <class Archive>
@@ -68,6 +69,7 @@ struct MemberMotion {
     std::vector<Load> loads;            ///< of all cloths
     std::vector<DynamicPin> pins;       ///< those pins of all cloths that can move, and the hands
     std::vector<MotionPath> colliders;  ///< sorted by kind
+    std::vector<BodyActions> bodies;
 };
 
 /// What the host knows of a member's progress.
@@ -76,6 +78,7 @@ struct MemberProgress {
     std::optional<FrameFailure> failure;
     bool judged = false;  ///< the statistics of the frame were judged
     std::vector<ClothStatistics> statistics;
+    std::vector<BodyState> bodies;
     FrameEffort effort;
     std::optional<SelfContactReport> self_contact;
     bool pins_acted = false, colliders_acted = false;  ///< actions have moved these

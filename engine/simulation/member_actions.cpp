@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/vectors.h"
 #include "world/motion.h"
 #include "world/weather.h"
 
@@ -100,7 +101,33 @@ class Acting {
         member_.colliders_acted = member_.colliders_acted || !actions_.colliders.empty();
     }
 
+    void push_bodies() {
+        std::vector<Body>& bodies = member_.model.bodies.front().bodies;
+        for (std::size_t k = 0; k < bodies.size() && member_.model.options.bodies; ++k) {
+            BodyActions& acts = bodies[k].acts;
+            const std::size_t index = number_ * bodies.size() + k;
+            const BodyActions before = acts;
+            take(actions_.body_forces, index, acts.force, acts.moment);
+            acts.impulse = acts.twist = acts.velocity = acts.turning = {};
+            take(actions_.body_impulses, index, acts.impulse, acts.twist);
+            take(actions_.body_velocities, index, acts.velocity, acts.turning);
+            acts.sets =
+                !actions_.body_velocities.empty() && (actions_.body_sets.empty() || actions_.body_sets[index] != 0);
+            acts.given += most_given(bodies[k], to_ - from_);
+            // Velocities are those in the middle of substeps, so half a substep of the force is past as it changes.
+            const double half = 0.5 * (to_ - from_) / member_.model.scene.solver.substeps;
+            acts.impulse = plus(acts.impulse, times(half, minus(before.force, acts.force)));
+            acts.twist = plus(acts.twist, times(half, minus(before.moment, acts.moment)));
+        }
+    }
+
   private:
+    static void take(std::span<const double> numbers, std::size_t index, Vec3& first, Vec3& second) {
+        if (numbers.empty()) return;
+        const double* const own = &numbers[numbers_of_key * index];
+        first = {own[0], own[1], own[2]};
+        second = {own[3], own[4], own[5]};
+    }
     /// Returns keys of a value that is `now` from this step on. The steps were made for the value `start` of time 0,
     /// and bounds know the strongest that there was, so both stay among them.
     template <class Key, class Value>
@@ -160,12 +187,13 @@ class Acting {
 
 bool acts(const EnsembleControls& controls) {
     return controls.wind || controls.pins || controls.colliders || controls.holds || controls.gravity ||
-           controls.loads || !controls.hands.empty();
+           controls.loads || controls.bodies || !controls.hands.empty();
 }
 
 bool is_any(const EnsembleActions& actions) {
     return !(actions.wind.empty() && actions.pins.empty() && actions.colliders.empty() && actions.holds.empty() &&
-             actions.gravity.empty() && actions.hands.empty() && actions.grasps.empty() && actions.loads.empty());
+             actions.gravity.empty() && actions.hands.empty() && actions.grasps.empty() && actions.loads.empty() &&
+             actions.body_forces.empty() && actions.body_impulses.empty() && actions.body_velocities.empty());
 }
 
 SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& controls) {
@@ -182,6 +210,9 @@ SceneDescription able_to_move(SceneDescription scene, const EnsembleControls& co
             }
     if (controls.loads && std::ranges::all_of(scene.cloths, [](const Cloth& cloth) { return cloth.loads.empty(); }))
         throw Error("controls: loads: the scene has none: give its cloths some, of 0 N");
+    const auto has_mass = [](const Collider& collider) { return collider.mass.has_value(); };
+    if (controls.bodies && std::ranges::none_of(scene.colliders, has_mass))
+        throw Error("controls: bodies: no collider of the scene has a mass");
     for (const std::size_t cloth : controls.hands)
         if (cloth >= scene.cloths.size())
             throw Error(
@@ -193,6 +224,7 @@ ModelOptions controlled(ModelOptions options, const EnsembleControls& controls) 
     options.air = options.air || controls.wind;
     options.weight = controls.gravity;
     options.holds = controls.holds;
+    options.bodies = controls.bodies;
     options.hands = controls.hands;
     options.acts = acts(controls);
     return options;
@@ -205,6 +237,7 @@ void act(const EnsembleActions& actions, std::size_t number, Member& member) {
     acting.load();
     acting.move_pins();
     acting.move_colliders();
+    acting.push_bodies();
 }
 
 }  // namespace drape

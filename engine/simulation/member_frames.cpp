@@ -80,7 +80,10 @@ MemberFrames::MemberFrames(const vulkan::Device& device, Members& members, const
     std::vector<std::size_t> all(members.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     simulate(all);
-    for (const auto& member : members) start_statistics_.push_back(member->statistics);
+    for (const auto& member : members) {
+        start_statistics_.push_back(member->statistics);
+        start_bodies_.push_back(member->bodies);
+    }
 }
 
 std::vector<std::vector<std::size_t>> MemberFrames::groups_of(const vulkan::Device& device, bool share) const {
@@ -195,6 +198,7 @@ void MemberFrames::simulate(const std::vector<std::size_t>& numbers) {
 void MemberFrames::keep(std::size_t number, const FinishedFrame& finished) {
     Member& member = *members_[number];
     member.statistics = finished.statistics;
+    member.bodies = finished.bodies;
     member.effort = finished.effort;
     member.self_contact = server_of(number).member(seats_[number].place).self_contact();
     if (lasts(number)) return;
@@ -244,6 +248,7 @@ void MemberFrames::put_back(std::size_t number) {
         }
     server.member(seat.place).skip_start();
     members_[number]->statistics = start_statistics_[number];
+    members_[number]->bodies = start_bodies_[number];
 }
 
 SimulationState MemberFrames::save(std::size_t number) const {

@@ -89,6 +89,7 @@ class MemberFrames {
     std::vector<Arrays> arrays_;           ///< by member; empty in a group that is `lasting`
     std::vector<SimulationState> starts_;  ///< by member; only of members with a server of their own
     std::vector<std::vector<ClothStatistics>> start_statistics_;  ///< by member
+    std::vector<std::vector<BodyState>> start_bodies_;            ///< by member
     std::vector<char> over_;  ///< by member: it failed for good, and stays where it was
     std::function<void()> meanwhile_;
     mutable std::map<Place, std::vector<float>>

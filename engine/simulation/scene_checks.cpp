@@ -248,11 +248,8 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     expect(scene.lights.size() <= 4, "/lights", "at most 4 lights");
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         if (const Collider& body = scene.colliders[i]; body.mass)
-            expect(is_body(body) && scene.solver.method != SolverMethod::automatic &&
-                       !scene.solver.estimate_error.value_or(false),
-                   fmt::format("/colliders/{}/mass", i),
-                   "a mass above 0 of a sphere, box, ellipsoid or capsule without a path, and a named method without "
-                   "an estimated error");
+            expect(is_body(body), fmt::format("/colliders/{}/mass", i),
+                   "a mass above 0 of a sphere, box, ellipsoid or capsule without a path");
     if (result.errors.empty() && scene.overlap == Overlap::refuse)
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),

@@ -119,6 +119,8 @@ constexpr const char* coarse_run = " of the coarse run";
 void add_remember(graph::Graph& graph, Pipelines& pipelines, ClothState& state) {
     const graph::Handle position = state[Field::position];
     std::vector<Copy> copies{copy_between(graph, position, copy_of(graph, state, Field::position, coarse_run))};
+    if (const graph::Handle bodies = state[Field::bodies]; bodies.valid())
+        copies.push_back(copy_between(graph, bodies, copy_of(graph, state, Field::bodies, coarse_run)));
     add_copies(graph, pipelines, state, "remember", copies);
 }
 
@@ -143,8 +145,21 @@ void add_compare(graph::Graph& graph, Pipelines& pipelines, ClothState& state, g
         {&state, nullptr, {}, {{"position", &fine}, {"coarse_position", &coarse}, {"partials", &partials}}});
 }
 
-graph::Handle position_in(graph::Graph& graph, const ClothState& state, StateSet set) {
-    return graph.image(in_set(declaration_of(graph, state[Field::position]), set));
+/// Compares the bodies that lie with a cloth, if there are any.
+void add_compare_bodies(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SimulationModel& run,
+                        graph::Handle fine, graph::Handle coarse) {
+    if (!fine.valid()) return;
+    const auto count = static_cast<std::uint32_t>(body_count(run));
+    graph::Handle distances = graph.buffer<float>(body_distance_name(state.name), count, graph::Lifetime::host_output);
+    add_compute_pass(graph, state.pass_name("compare bodies", "judge"), pipelines.get("body_difference.comp"),
+                     glsl::GridPush{{static_cast<int>(count), 1}}, {count, 1, 1},
+                     {&state, nullptr, {}, {{"bodies", &fine}, {"coarse_bodies", &coarse}, {"distances", &distances}}});
+}
+
+/// Returns the field of the state in another set; invalid where the state has none.
+graph::Handle field_in(graph::Graph& graph, const ClothState& state, Field field, StateSet set) {
+    if (!state[field].valid()) return {};
+    return graph.image(in_set(declaration_of(graph, state[field]), set));
 }
 
 }  // namespace
@@ -180,6 +195,8 @@ void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, StateStep
     }
 }
 
+std::string body_distance_name(const std::string& state) { return state + "/distances of bodies on the host"; }
+
 std::string difference_readback_name(const std::string& state) { return state + "/differences on the host"; }
 
 void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
@@ -194,16 +211,23 @@ void add_attempt(graph::Graph& graph, Pipelines& pipelines, ClothState& state, c
         case StateStep::remember:
             return add_remember(graph, pipelines, state);
         case StateStep::compare:
+            if (state[Field::bodies].valid())
+                add_compare_bodies(graph, pipelines, state, run, state[Field::bodies],
+                                   copy_of(graph, state, Field::bodies, coarse_run));
             return add_compare(graph, pipelines, state, state[Field::position],
                                copy_of(graph, state, Field::position, coarse_run));
         case StateStep::compare_companion:
+            add_compare_bodies(graph, pipelines, state, run, state[Field::bodies],
+                               field_in(graph, state, Field::bodies, StateSet::companion));
             return add_compare(graph, pipelines, state, state[Field::position],
-                               position_in(graph, state, StateSet::companion));
+                               field_in(graph, state, Field::position, StateSet::companion));
         case StateStep::disturb:
             return add_disturb(graph, pipelines, state, run);
         case StateStep::compare_disturbed:
-            return add_compare(graph, pipelines, state, position_in(graph, state, StateSet::companion),
-                               position_in(graph, state, StateSet::disturbed));
+            add_compare_bodies(graph, pipelines, state, run, field_in(graph, state, Field::bodies, StateSet::companion),
+                               field_in(graph, state, Field::bodies, StateSet::disturbed));
+            return add_compare(graph, pipelines, state, field_in(graph, state, Field::position, StateSet::companion),
+                               field_in(graph, state, Field::position, StateSet::disturbed));
     }
 }
 
@@ -213,6 +237,13 @@ std::vector<double> read_differences(const ClothLayout& layout, const graph::Res
         std::vector<glsl::DifferenceRecord> partials(bytes.size() / sizeof(glsl::DifferenceRecord));
         std::memcpy(partials.data(), bytes.data(), bytes.size());
         all.push_back(difference_of(partials));
+    }
+    for (std::size_t cloth = 0; cloth < all.size(); ++cloth) {
+        if (!has_bodies(layout.model, cloth)) continue;
+        std::vector<float> distances(body_count(layout.model));
+        const vulkan::Buffer& buffer = pool.buffer(body_distance_name(layout.state_name(cloth)), slot);
+        std::memcpy(distances.data(), buffer.mapped().data(), distances.size() * sizeof(float));
+        all[cloth] = difference_with_bodies(all[cloth], distances);
     }
     return all;
 }

@@ -9,6 +9,8 @@ namespace drape {
 inline constexpr const char* attempt_name = "attempt";
 /// Host output buffer with the differences of a state's cloths (ClothState::name, count), difference_count each.
 std::string difference_readback_name(const std::string& state);
+/// That of the squared distances of the bodies that lie with it.
+std::string body_distance_name(const std::string& state);
 
 /// Does what `step` does with the state for what contact between the cloths hands from frame to frame.
 void add_contact_attempt(graph::Graph& graph, ContactHandles& contact, StateStep step);

@@ -162,6 +162,9 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
                                           .lifetime = Lifetime::host_input,
                                           .element = &glsl::layout_of<glsl::ColliderRecord>(),
                                           .texels = true});
+    if (model_.options.bodies)
+        inputs_.body_actions = graph.buffer<glsl::BodyAction>(
+            body_actions_name, model_.member_count * body_count(model_), Lifetime::host_input);
     if (body_count(model_) > 0) inputs_.colliders = add_copy_of_colliders(graph, inputs_.colliders);
     if (!model_.mesh_fields.empty())
         inputs_.mesh_fields =

@@ -51,6 +51,7 @@ void write_inputs(const ClothLayout& layout, const graph::ResourcePool& pool, st
     if (!inputs.stiffness.empty()) write_buffer(pool, slot, "stiffness", inputs.stiffness);
     if (!inputs.openings.empty()) write_buffer(pool, slot, "openings", inputs.openings);
     if (!inputs.colliders.empty()) write_buffer(pool, slot, "colliders", inputs.colliders);
+    if (!inputs.body_actions.empty()) write_buffer(pool, slot, body_actions_name, inputs.body_actions);
     if (inputs.forms) write_forms(pool, slot, *inputs.forms);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (layout.is_alone(cloth) && !inputs.pins[cloth].empty())

@@ -80,6 +80,7 @@ struct ContactHandles {
 };
 
 inline constexpr const char* mesh_fields_name = "mesh fields";
+inline constexpr const char* body_actions_name = "body actions";
 
 /// The inputs of the whole scene.
 struct SceneInputs {
@@ -89,6 +90,7 @@ struct SceneInputs {
     graph::Handle mesh_fields;  ///< distances to meshes, as texels (shared/collider_types.h)
     /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
+    graph::Handle body_actions;  ///< a BodyAction per member and body; invalid where no action pushes bodies
     graph::Handle sewn_places;  ///< of all cloths: a SewnPlace each; passes write it
     graph::Handle openings;     ///< a SeamOpening per substep and time of closing; invalid where no seam closes
     graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth

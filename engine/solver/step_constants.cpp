@@ -82,6 +82,7 @@ struct ConstantRow {
 
 // clang-format off: every constant is a line.
 constexpr ConstantRow constant_rows[] = {
+    {"acted", [](Place p) { return p.model.options.bodies ? 1u : 0u; }},
     {"advance", [](Place p) { return p.step.substep > 0 ? 1u : 0u; }},
     {"after_edges", [](Place p) { return p.step.after_edges ? 1u : 0u; }},
     {"after_impulses", [](Place p) { return p.step.after_impulses ? 1u : 0u; }},

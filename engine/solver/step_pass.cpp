@@ -107,6 +107,7 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
         resources.own.emplace_back("bodies", &(*bearer)[Field::bodies]);
         resources.own.emplace_back("body_constants", &(*bearer)[Field::body_constants]);
         resources.own.emplace_back("colliders", &inputs.colliders);
+        resources.own.emplace_back("body_actions", &inputs.body_actions);
     }
     resources.alias = [&](std::string_view name, bool written) { return alias_of(row, place, turned, name, written); };
     add_compute_pass(graph, name_of(row, place), pipeline, push_of(row, place), size_of(*kernel, place, pipeline),

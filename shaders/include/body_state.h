@@ -1,4 +1,5 @@
-// Loads and stores the state of a body. The includer has the image `bodies`.
+// Loads and stores the state of a body. The includer has the image `bodies`, whose texels body_last_spin have in w the
+// length of the last substep, s.
 RigidBody body_at(int number) {
     return RigidBody(
         imageLoad(bodies, ivec2(body_position, number)).xyz, imageLoad(bodies, ivec2(body_remainder, number)).xyz,

@@ -48,6 +48,12 @@ SHARED vec4 turned_on(vec4 turn, vec3 half_way) {
 
 const int rigid_midpoint_rounds = 3;  // of the midpoint's fixed point: each leaves a share h |w| of the error
 
+/// Returns the time, s, from the middle of a substep to the middle of the next.
+SHARED float fall_time(float last_step, float step) {
+    precise float time = (last_step + step) * 0.5f;
+    return time;
+}
+
 /// Returns the body with the velocity that gravity, m/s^2, gives it in a step, s.
 SHARED RigidBody fallen_body(RigidBody body, vec3 gravity, float step) {
     RigidBody next = body;

@@ -16,6 +16,16 @@ struct BodyConstants {
     ivec4 what;    // x: its kind, y: its number among the colliders; zw unused
 };
 
+/// What acts on a body in a frame beside what the scene has.
+struct BodyAction {
+    vec4 force;     // xyz: N; w: 1: the frame begins with `velocity` and `turning`, else 0
+    vec4 moment;    // xyz: N m, about the centre of mass
+    vec4 impulse;   // xyz: N s, as the frame begins
+    vec4 twist;     // xyz: N m s, as the frame begins
+    vec4 velocity;  // xyz: m/s
+    vec4 turning;   // xyz: rad/s
+};
+
 /// The state of a body is a row of an image: its position and what rounding lost of it, its turn, its velocity and what
 /// rounding lost of that, its angular momentum, and the velocity and the angular momentum of the last substep's motion,
 /// w of the velocity being 1 where planes changed them, else 0.
@@ -32,7 +42,9 @@ struct BodyMovePush {
     int plane_count;   // the list's first records are planes
     int weather;       // index of the change of gravity since the start
     float recovery;    // m that a substep resolves of an overlap
-    int unused;
+    int first_action;  // index of the first body's
+    int begins;        // 1: the frame begins with this substep
+    int unused_a, unused_b, unused_c;
 };
 
 struct BodyStrikePush {

@@ -189,6 +189,23 @@ TEST(ClosedLoop, WhatMayPassAColliderIsDoneAgain) {
         for (std::size_t i = 1; i < positions.size(); i += 4) EXPECT_GT(positions[i], 0);
 }
 
+/// Bodies are kept, restored and compared with the cloth, by substeps that change, and each run has its own.
+TEST(ClosedLoop, WithBodiesThatClothMoves) {
+    SceneDescription scene = everything();
+    for (const std::size_t k : {0u, 2u}) {
+        scene.colliders[k].path = {};
+        scene.colliders[k].mass = 0.5;
+        scene.colliders[k].velocity = {0.1, 0.2, 0.3};
+        scene.colliders[k].angular_velocity = {1, -2, 0.5};
+    }
+    scene = automatic(scene, 12);
+    scene.solver.tolerance = 0.004;
+    scene.solver.tolerance_motion = 0.5;
+    const Seen seen = compare_loops(scene);
+    EXPECT_GT(most_attempts(seen), 1u);
+    EXPECT_GT(seen.efforts.back().position_error, 0);
+}
+
 /// Two cloths, alike and unlike, share dispatches (cloth/together.h), and are kept, restored and compared at once.
 TEST(ClosedLoop, WithClothsThatAreSimulatedTogether) {
     SceneDescription scene = everything();

@@ -52,6 +52,21 @@ TEST_P(TwinBodiesTest, ClothsTogether) {
     compare(scene);
 }
 
+TEST_P(TwinBodiesTest, ActionsPushAndThrowThem) {
+    const auto act = [](SimulationModel& model, std::uint32_t frame) {
+        for (Body& body : model.bodies.front().bodies) {
+            body.acts.force = {0.1, -2, 0.3};
+            body.acts.moment = {0.01, 0, -0.02 * frame};
+            body.acts.impulse = {0, 0.02 * frame, 0};
+            body.acts.twist = {0, 0.001, 0};
+            body.acts.sets = frame % 3 == 2 && body.number % 2 == 1;
+            body.acts.velocity = {0, -0.3, 0.1 * frame};
+            body.acts.turning = {1, 2, -3};
+        }
+    };
+    compare(with_bodies(GetParam()), {.bodies = true, .acts = true}, test::gpu().device, {.drawing = true}, {}, act);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, TwinBodiesTest,
                          testing::Values(SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps),
                          [](const auto& method) { return std::string(named(method.param).name); });

@@ -340,6 +340,32 @@ class Ensembles(Validated):
             together.step(holds=[True, False])
         np.testing.assert_array_equal(together.frames, [4, 4])
 
+    def test_bodies_are_told_and_pushed(self):
+        scene = sheet(colliders={"spheres": [{"center": [5, 0, 0], "radius": 0.1, "mass": 0.5, "velocity": [0, 0, 1]}]})
+        single = drape.Simulation(scene)
+        single.step()
+        bodies = single.bodies()
+        np.testing.assert_allclose(bodies["position"], [[5, 0, 0]], atol=1e-6)
+        np.testing.assert_allclose(bodies["velocity"], [[0, 0, 1]], atol=1e-6)
+        self.assertEqual(bodies["turn"].shape, (1, 4))
+        together = self.ensemble(scene, 2, controls=["bodies"])
+        forces = np.zeros((2, 1, 3))
+        forces[1, 0] = [2, 0, 0]
+        for _ in range(6):
+            together.step(body_forces=forces)
+        found = together.bodies()
+        self.assertEqual(found["position"].shape, (2, 1, 3))
+        frame = 1 / drape.parse(scene).fps
+        fallen = -6 * 9.81 * frame
+        np.testing.assert_allclose(found["velocity"][:, 0], [[0, fallen, 1], [4 * 6 * frame, fallen, 1]], atol=1e-5)
+        thrown = np.zeros((2, 1, 6))
+        thrown[:, 0, 1] = 3
+        together.step(body_velocities=thrown, body_sets=[[True], [False]])
+        np.testing.assert_allclose(together.bodies()["velocity"][:, 0, 1], [3 - 9.81 * frame, 7 / 6 * fallen], atol=1e-5)
+        with self.assertRaisesRegex(drape.ActionError, "member 1: body_impulses: number 2 is nan"):
+            together.step(body_impulses=[[[0, 0, 0]], [[0, 0, float("nan")]]])
+        np.testing.assert_array_equal(together.frames, [7, 7])
+
     def test_members_by_auto_act_too(self):
         together = self.ensemble(sheet(solver={"method": "auto"}), 2, controls=["pins"], hands=1)
         pins = np.zeros((2, 2, 3))

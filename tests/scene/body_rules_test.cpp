@@ -23,12 +23,6 @@ TEST(BodyRules, ABodyHasNoPathAndWhatItHasNeedsAMass) {
          "s:3:35: /colliders/boxes/0/inertia: expected moments none of which exceeds the sum of the others"});
 }
 
-TEST(BodyRules, MethodAutoMovesNone) {
-    expect_errors(R"("colliders": {"spheres": [{}, {"mass": 50}]})",
-                  {"s:2:40: /colliders/spheres/1/mass: expected no mass where solver.method is auto: name a method for "
-                   "bodies that cloth moves"});
-}
-
 TEST(BodyRules, ABodyWeighsMoreThanTheClothOnIt) {
     expect_errors(R"("colliders": {"spheres": [{"radius": 0.5, "mass": 0.1}]}, "solver": {"method": "line"})",
                   {"s:2:51: /colliders/spheres/0/mass: expected at least 1.26 kg, 2 times what cloth of 0.2 kg/m^2 "

@@ -62,6 +62,9 @@ struct TwinCloth {
     std::uint32_t iteration_count = 0;                   ///< iterations of the frame, when adaptive
 };
 
+/// Returns the squared distance, m^2, of each body that lies with a cloth from where another run has it.
+std::vector<float> body_distances(const TwinCloth& fine, const TwinCloth& coarse);
+
 /// A pair of primitives that may meet.
 struct TwinPair {
     bool edges;  ///< whether it is two edges, else a particle and a triangle

@@ -40,6 +40,15 @@ void store_body(std::vector<vec4>& bodies, std::size_t number, const RigidBody& 
 
 }  // namespace
 
+std::vector<float> body_distances(const TwinCloth& fine, const TwinCloth& coarse) {
+    const std::vector<vec4>&one = fine[Field::bodies], &other = coarse[Field::bodies];
+    std::vector<float> all;
+    for (std::size_t row = 0; row < one.size(); row += body_texels)
+        all.push_back(body_distance(xyz(one[row + body_position]), xyz(one[row + body_remainder]),
+                                    xyz(other[row + body_position]), xyz(other[row + body_remainder])));
+    return all;
+}
+
 void Twin::move_bodies(const Step& step, FrameInputs& inputs) {
     const auto& push = step.push<BodyMovePush>();
     std::vector<vec4>& bodies = cloths_[step.cloth][Field::bodies];
@@ -50,12 +59,18 @@ void Twin::move_bodies(const Step& step, FrameInputs& inputs) {
         const vec3 steady = xyz(push.gravity);
         const vec3 gravity =
             model_->weighs ? steady + xyz(inputs.wind[static_cast<std::size_t>(push.weather)]) : steady;
-        const RigidBody fallen = fallen_body(before, gravity, push.gravity.w);
+        const float last_step = bodies[number * body_texels + body_last_spin].w;
+        const RigidBody pushed =
+            model_->options.bodies
+                ? acted_body(before, own, inputs.body_actions[static_cast<std::size_t>(push.first_action) + number],
+                             push.begins == 1, gravity, last_step, push.gravity.w)
+                : before;
+        const RigidBody fallen = fallen_body(pushed, gravity, fall_time(last_step, push.gravity.w));
         const RigidBody body = BodyOnPlanes{push, inputs.colliders.data()}.body_on_planes(fallen, own);
         const RigidBody now = moved_body(body, xyz(own.inverse), push.gravity.w);
         store_body(bodies, number, now);
         bodies[number * body_texels + body_last_velocity] = texel(now.velocity, touches_planes(fallen, body));
-        bodies[number * body_texels + body_last_spin] = texel(now.spin);
+        bodies[number * body_texels + body_last_spin] = texel(now.spin, push.gravity.w);
         for (int list = 0; list < push.list_count; ++list) {
             ColliderRecord& record =
                 inputs.colliders[static_cast<std::size_t>(push.first + list * push.record_count + own.what.y)];

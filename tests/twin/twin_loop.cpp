@@ -67,6 +67,9 @@ std::vector<double> TwinLoop::differences(const Twin& fine, const Twin& coarse) 
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
         all.push_back(
             difference_of(partial_differences(model_.cloths[cloth].grid, fine.cloth(cloth), coarse.cloth(cloth))));
+    for (std::size_t cloth = 0; cloth < all.size(); ++cloth)
+        if (has_bodies(model_, cloth))
+            all[cloth] = difference_with_bodies(all[cloth], body_distances(fine.cloth(cloth), coarse.cloth(cloth)));
     return all;
 }
 

@@ -18,8 +18,8 @@ using Places = py::array_t<std::int64_t, py::array::c_style | py::array::forceca
 
 /// What step() is given.
 struct Told {
-    std::optional<Numbers> wind, pins, colliders, gravity, hands, loads;
-    std::optional<Choices> holds;
+    std::optional<Numbers> wind, pins, colliders, gravity, hands, loads, body_forces, body_impulses, body_velocities;
+    std::optional<Choices> holds, body_sets;
     std::optional<Places> grasps;
 };
 
@@ -65,8 +65,11 @@ EnsembleControls controls_of(const std::vector<std::string>& names, const SceneD
             controls.gravity = true;
         else if (name == "loads")
             controls.loads = true;
+        else if (name == "bodies")
+            controls.bodies = true;
         else
-            throw py::value_error("controls are wind, pins, colliders, holds, gravity and loads, not '" + name + "'");
+            throw py::value_error("controls are wind, pins, colliders, holds, gravity, loads and bodies, not '" + name +
+                                  "'");
     }
     return controls;
 }
@@ -99,17 +102,25 @@ class PyEnsemble {
         if (told.hands) hands = numbers(*told.hands, "hands", {hand_count_}, 6);
         if (told.loads) loads = numbers(*told.loads, "loads", {load_count}, 3);
         std::vector<std::uint8_t> holds;
-        if (told.holds) holds = choices(*told.holds, pin_count);
+        const std::size_t body_count = ensemble_->bodies(0).size();
+        std::vector<double> forces, impulses, velocities;
+        if (told.body_forces) forces = numbers(*told.body_forces, "body_forces", {body_count}, 6);
+        if (told.body_impulses) impulses = numbers(*told.body_impulses, "body_impulses", {body_count}, 6);
+        if (told.body_velocities) velocities = numbers(*told.body_velocities, "body_velocities", {body_count}, 6);
+        std::vector<std::uint8_t> sets;
+        if (told.body_sets) sets = choices(*told.body_sets, "body_sets", body_count);
+        if (told.holds) holds = choices(*told.holds, "holds", pin_count);
         std::vector<std::int32_t> grasps;
         if (told.grasps) grasps = places(*told.grasps);
         const py::gil_scoped_release released;
-        ensemble_->step({wind, pins, colliders, holds, gravity, hands, grasps, loads});
+        ensemble_->step(
+            {wind, pins, colliders, holds, gravity, hands, grasps, loads, forces, impulses, velocities, sets});
     }
 
-    std::vector<std::uint8_t> choices(const Choices& array, std::size_t pin_count) const {
+    std::vector<std::uint8_t> choices(const Choices& array, const char* name, std::size_t count) const {
         if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(0)) != ensemble_->size() ||
-            static_cast<std::size_t>(array.shape(1)) != pin_count)
-            throw ActionError(fmt::format("actions: holds: expected an array [{}, {}]", ensemble_->size(), pin_count),
+            static_cast<std::size_t>(array.shape(1)) != count)
+            throw ActionError(fmt::format("actions: {}: expected an array [{}, {}]", name, ensemble_->size(), count),
                               0);
         return {array.data(), array.data() + array.size()};
     }
@@ -286,7 +297,8 @@ void define_ensemble(py::module_& module) {
             py::arg("view") = "shaded", py::arg("validate") = false,
             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
-            "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity', 'loads'. "
+            "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity', 'loads', "
+            "'bodies'. "
             "hands: how "
             "many "
             "hands take particles of the first cloth, or the cloth of each. All begin at frame 0.")
@@ -295,12 +307,17 @@ void define_ensemble(py::module_& module) {
             [](PyEnsemble& self, const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
                const std::optional<Numbers>& colliders, const std::optional<Choices>& holds,
                const std::optional<Numbers>& gravity, const std::optional<Numbers>& hands,
-               const std::optional<Places>& grasps, const std::optional<Numbers>& loads) {
-                self.step({wind, pins, colliders, gravity, hands, loads, holds, grasps});
+               const std::optional<Places>& grasps, const std::optional<Numbers>& loads,
+               const std::optional<Numbers>& body_forces, const std::optional<Numbers>& body_impulses,
+               const std::optional<Numbers>& body_velocities, const std::optional<Choices>& body_sets) {
+                self.step({wind, pins, colliders, gravity, hands, loads, body_forces, body_impulses, body_velocities,
+                           holds, body_sets, grasps});
             },
             py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
             py::arg("colliders") = py::none(), py::arg("holds") = py::none(), py::arg("gravity") = py::none(),
             py::arg("hands") = py::none(), py::arg("grasps") = py::none(), py::arg("loads") = py::none(),
+            py::arg("body_forces") = py::none(), py::arg("body_impulses") = py::none(),
+            py::arg("body_velocities") = py::none(), py::arg("body_sets") = py::none(),
             "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
             "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
             "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
@@ -309,7 +326,10 @@ void define_ensemble(py::module_& module) {
             "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
             "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
             "a load "
-            "that presses Pa, 0, 0, during the step. "
+            "that presses Pa, 0, 0, during the step. body_forces: [member, body, 3 or 6]: N and N m on colliders with "
+            "a "
+            "mass, during the step. body_impulses: likewise N s and N m s at its start. body_velocities: m/s and rad/s "
+            "at its start, of those bodies that body_sets, bool [member, body], names, or of all. "
             "What is not given stays as it is. Raises ActionError, and then no member went on.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(
@@ -339,6 +359,14 @@ void define_ensemble(py::module_& module) {
         .def_property_readonly("device", [](const PyEnsemble& self) { return self.device().info().name; })
         .def_property_readonly("validation_count",
                                [](const PyEnsemble& self) { return self.device().validation_count(); });
+    ensemble.def(
+        "bodies",
+        [](const PyEnsemble& self) {
+            std::vector<std::vector<BodyState>> all;
+            for (std::size_t k = 0; k < self.ensemble().size(); ++k) all.push_back(self.ensemble().bodies(k));
+            return body_arrays(all, true);
+        },
+        "A dict of arrays [member, body, ...] of the colliders with a mass, as Simulation.bodies().");
     define_member_states(ensemble);
     define_member_arrays(ensemble);
 }

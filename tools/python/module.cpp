@@ -86,6 +86,37 @@ std::size_t cloth_number(const SceneDescription& scene, const py::object& which)
     return number;
 }
 
+py::dict body_arrays(const std::vector<std::vector<BodyState>>& members, bool many) {
+    py::dict all;
+    const auto add = [&](const char* name, std::size_t width, const auto& number) {
+        std::vector<std::size_t> shape{members.size(), members.front().size()};
+        if (!many) shape.erase(shape.begin());
+        if (width > 1) shape.push_back(width);
+        py::array_t<double> array(shape);
+        double* to = array.mutable_data();
+        for (const std::vector<BodyState>& bodies : members)
+            for (const BodyState& body : bodies)
+                for (std::size_t k = 0; k < width; ++k) *to++ = number(body, k);
+        all[name] = array;
+    };
+    const auto add_vector = [&](const char* name, auto BodyState::*what) {
+        add(name, (BodyState().*what).size(), [what](const BodyState& body, std::size_t k) { return (body.*what)[k]; });
+    };
+    const auto add_number = [&](const char* name, auto BodyState::*what) {
+        add(name, 1, [what](const BodyState& body, std::size_t) { return static_cast<double>(body.*what); });
+    };
+    add_number("collider", &BodyState::collider);
+    add_vector("position", &BodyState::position);
+    add_vector("turn", &BodyState::turn);
+    add_vector("velocity", &BodyState::velocity);
+    add_vector("angular_velocity", &BodyState::angular_velocity);
+    add_vector("momentum", &BodyState::momentum);
+    add_vector("angular_momentum", &BodyState::angular_momentum);
+    add_number("kinetic_energy", &BodyState::kinetic_energy);
+    add_number("potential_energy", &BodyState::potential_energy);
+    return all;
+}
+
 py::dict state_dict(const SimulationState& state) {
     py::dict parts;
     for (const auto& [name, bytes] : state)
@@ -302,6 +333,12 @@ void define_arrays(py::class_<PySimulation>& simulation) {
     simulation
         .def("picture", &picture,
              "uint8 [height, width, 4], sRGB and 255, rows from the top; needs draw=True. No copy, as positions.")
+        .def(
+            "bodies", [](const PySimulation& self) { return body_arrays({self.frame().bodies}, false); },
+            "A dict of float64 arrays [body, ...] of the colliders with a mass: collider (its number), position (m, of "
+            "its shape's centre), turn (unit quaternion x y z w), velocity (m/s, of its centre of mass), "
+            "angular_velocity (rad/s), momentum, angular_momentum (about the origin), kinetic_energy and "
+            "potential_energy (J). Copies.")
         .def("faces", &faces, which,
              "int32 [face, 3]: particles (row * columns + column) of the triangles that no cut has split so far.")
         .def("uv", &uv, which, "float32 [row, column, 2]: texture coordinates.");

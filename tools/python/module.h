@@ -42,6 +42,9 @@ py::array view(const T* data, const std::vector<py::ssize_t>& shape, const std::
     return array;
 }
 
+/// Returns the numbers of bodies by name: float64 [member, body, ...], or of one scene, [body, ...].
+py::dict body_arrays(const std::vector<std::vector<BodyState>>& members, bool many);
+
 /// Saved states as dicts of bytes.
 py::dict state_dict(const SimulationState& state);
 SimulationState state_of(const py::dict& parts);

@@ -26,6 +26,7 @@ struct EnsembleControls {
     /// Hands, which no scene has, may take particles: the cloth (by number) whose particles each can take. They hold
     /// nothing at first.
     std::vector<std::size_t> hands = {};
+    bool bodies = false;  ///< bodies that cloth moves may be pushed and thrown
 };
 
 struct EnsembleOptions {
@@ -60,6 +61,16 @@ struct EnsembleActions {
     /// [member, load, 3]: what the loads of all cloths, in order, give during the step: N; of one that presses Pa and
     /// two zeros. The scene's keys of them are over.
     std::span<const double> loads;
+    /// [member, body, 6]: N and, about the centre of mass, N m on the bodies (colliders with a mass, in the order of
+    /// the colliders) during the step.
+    std::span<const double> body_forces;
+    /// [member, body, 6]: N s and, about the centre of mass, N m s on the bodies at the step's start, in this step
+    /// alone.
+    std::span<const double> body_impulses;
+    /// [member, body, 6]: m/s and rad/s that bodies have at the step's start, before impulses; in this step alone.
+    std::span<const double> body_velocities;
+    /// [member, body], not 0: those that get their `body_velocities`; empty: all do.
+    std::span<const std::uint8_t> body_sets;
 };
 
 /// Thrown for actions that cannot be taken, before any member goes on.
@@ -112,6 +123,8 @@ class Ensemble {
     const std::optional<FrameFailure>& failure(std::size_t member) const;
     /// Returns the statistics of a member's cloths.
     const std::vector<ClothStatistics>& statistics(std::size_t member) const;
+    /// Returns where a member's bodies are and how they move; empty where no collider has a mass.
+    const std::vector<BodyState>& bodies(std::size_t member) const;
     /// Returns the work that a member's frame took; by methods with fixed substeps that share dispatches its substeps
     /// alone.
     const FrameEffort& effort(std::size_t member) const;
