@@ -19,11 +19,19 @@ layout(constant_id = 24) const bool crossed = false;
 layout(set = 0, binding = 8, std430) readonly buffer Meetings { uint meetings[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Crossings { SelfCrossings crossings[]; };
 #include "include/self_lists.h"
-layout(set = 0, binding = 10, std430) writeonly buffer Sums { uvec4 sums[]; };  // two each
+layout(set = 0, binding = 10, std430) writeonly buffer Sums { uvec4 sums_out[]; };  // two each
+layout(set = 0, binding = 13, rgba32f) uniform readonly imageBuffer sums_in;  // integers, as bits
 layout(set = 0, binding = 11, std430) buffer FirstBorne { uint first_borne[]; };
 layout(set = 0, binding = 12, std430) buffer Borne { SelfBorne borne[]; };
 
-void clear(int half_sum) { sums[half_sum] = uvec4(0u); }
+/// Returns whether the last pairs that touched left sums at a place. Most particles touch nothing, and a store costs more
+/// than ten loads.
+bool is_left(int place) { return floatBitsToUint(imageLoad(sums_in, 2 * place + 1).w) != 0u; }
+void clear(int place) {
+    for (int sum = 0; sum < self_sum_count; ++sum)
+        for (int half_sum = 0; half_sum < 2; ++half_sum)
+            sums_out[2 * (sum * push.grid.x * push.grid.y + place) + half_sum] = uvec4(0u);
+}
 void chain(int entry) {
     uvec4 pair = borne[entry + 1].corners;
     int chain = place_of(self_texel(pair.x)) * self_chains + self_chain(pair);
@@ -145,7 +153,7 @@ void main() {
     load_carried();
     int count = self_listed(record[0].cell_count, push.cell_capacity);
     FOR_EVERY(i, count, judge(i))
-    FOR_EVERY(half_sum, push.grid.x * push.grid.y * self_sum_count * 2, clear(half_sum))
+    FOR_FOUND(place, push.grid.x * push.grid.y, is_left(place), clear(place))
     FOR_EVERY(entry, self_listed(borne[0].corners.x, push.touching_capacity), chain(entry))
     dispatch(self_size_pairs, reached);
 }

@@ -29,12 +29,15 @@ void add_parts(int which, uint corner, SelfParts parts) {
     atomicAdd(sums.sums_out[at + 1].x, uint(parts.z.x));
     atomicAdd(sums.sums_out[at + 1].y, uint(parts.z.y));
 }
+/// Adds the weight with which a pair holds a corner, and counts the pair.
 void add_weight(uint corner, uint weight) {
     int at = sum_at(0, place_of(self_texel(corner))) + 1;
-    if (wide)
-        atomicAdd(wide_sums.sums_out[at].y, uint64_t(weight));
-    else
-        atomicAdd(sums.sums_out[at].z, weight);
+    if (wide) {
+        atomicAdd(wide_sums.sums_out[at].y, uint64_t(weight) + 0x100000000ul);
+        return;
+    }
+    atomicAdd(sums.sums_out[at].z, weight);
+    atomicAdd(sums.sums_out[at].w, 1u);
 }
 
 /// Adds what a contact gives to each corner to a sum. `largest`: the largest thickness of its scene.

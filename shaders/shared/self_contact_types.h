@@ -72,7 +72,7 @@ const int self_chains = 4;
 /// Sums of impulses at a place, an integer in two words per component (include/self_impulse.h).
 struct SelfSum {
     uvec4 xy;
-    uvec4 z_weight;  // xy: z; z: sum of the weights with which pairs hold the corner; w unused
+    uvec4 z_weight;  // xy: z; of the first sum z: sum of the weights with which pairs hold the corner; w: their number
 };
 
 struct SelfCloth {

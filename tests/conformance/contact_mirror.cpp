@@ -164,8 +164,9 @@ void ContactMirror::upload_sums(const TwinContact& twin) const {
         for (std::size_t place = 0; place < contact_.place_count(); ++place) {
             const auto& units = twin.sums[place].units[which];
             const auto x = words_of(units[0], wide), y = words_of(units[1], wide), z = words_of(units[2], wide);
+            // Every place counts as touched, so that the next substep clears what is uploaded here.
             all[which * contact_.place_count() + place] = {{x[0], x[1], y[0], y[1]},
-                                                           {z[0], z[1], which == 0 ? twin.sums[place].weight : 0, 0}};
+                                                           {z[0], z[1], which == 0 ? twin.sums[place].weight : 0, 1}};
         }
     put(ContactField::sums, std::as_bytes(std::span(all)));
 }
