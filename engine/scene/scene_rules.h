@@ -79,7 +79,7 @@ inline constexpr Spelling<IndexBox> corner_spellings[] = {{"top_left", {{0, 0}, 
 
 /// Bodies have no path, and what bodies alone have needs a mass.
 bool check_body(const Members& members, Collider& collider);
-/// They need a named method, and weigh enough beside the cloth that may touch them.
+/// They weigh enough beside the cloth that may touch them.
 bool check_bodies(const Members& members, const SceneDescription& scene);
 bool check_capsule(const Members& members, Collider& collider);
 /// Reads the mesh's files.
