@@ -14,6 +14,7 @@ layout(constant_id = 1) const bool sews_predicted = false;  // the motion with w
 layout(constant_id = 2) const bool sews_touched = false;    // the motion with what contact writes
 layout(constant_id = 3) const bool sews_between = false;    // some of the particles lie between two places
 layout(constant_id = 4) const bool sews_closing = false;    // some seams close
+layout(constant_id = 6) const bool sews_weight = false;     // the forces have the change of gravity
 layout(constant_id = 5) const bool sews_leads = false;      // those between two places count by what they change
 layout(set = 0, binding = 0, std430) readonly buffer SewnParticles { SewnParticle sewn_particles[]; };
 layout(set = 0, binding = 1, std430) buffer SewnPlaces { SewnPlace sewn_places[]; };
@@ -24,11 +25,14 @@ layout(set = 0, binding = 5, rgba32f) uniform readonly image2D displacement_befo
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D wind_force;
 layout(set = 0, binding = 7, std430) readonly buffer SewnLeads { vec4 sewn_leads[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Openings { SeamOpening openings[]; };
+layout(set = 0, binding = 9, std430) readonly buffer Wind { vec4 wind[]; };
 
 bool is_between(SewnParticle particle) { return sews_between && particle.between.x >= 0; }
 
 void give_vector(SewnParticle particle, int place) {
     vec4 own = imageLoad(wind_force, particle.at.xy), sum = sewn_places[place].vector;
+    if (sews_weight)
+        own = without_carried(own, wind[push.weather].xyz, particle.carried.x, imageLoad(position, particle.at.xy).w);
     if (is_between(particle)) own = own_force(own, particle.weights.w);
     if (particle.weights.z != 0.0f)
         sum = own;

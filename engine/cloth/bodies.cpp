@@ -118,8 +118,8 @@ std::vector<glsl::BodyAction> body_actions(const SimulationModel& model) {
 
 glsl::BodyMovePush body_move_push(const SimulationModel& model, std::size_t member, std::uint32_t substep) {
     const MemberBodies& own = model.bodies[member];
-    const std::size_t records = model.scene.colliders.size(), substeps = model.scene.solver.substeps;
-    const std::size_t weather = (member * substeps + substep) * weather_vectors(model) + 1;
+    const std::size_t records = model.scene.colliders.size();
+    const std::size_t weather = first_weather(model, member, substep) + 1;
     return {texel(own.gravity, substep_length(model)),
             static_cast<int>(own.bodies.size()),
             static_cast<int>(records * (model.kept_colliders.size() * substep + own.first_list)),

@@ -163,6 +163,10 @@ std::size_t weather_vectors(const SimulationModel& model) {
     return count;
 }
 
+std::size_t first_weather(const SimulationModel& model, std::size_t member, std::uint32_t substep) {
+    return (member * model.scene.solver.substeps + substep) * weather_vectors(model);
+}
+
 std::size_t collider_record_count(const SimulationModel& model) {
     return model.kept_colliders.size() * model.scene.colliders.size() *
            (model.colliders_move ? model.most_substeps() : 1);

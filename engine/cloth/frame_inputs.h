@@ -18,6 +18,8 @@ RigidTransform pin_transform(const DynamicPin& pin, double time);
 
 /// Returns the number of vectors that FrameInputs::wind has for a substep of one scene.
 std::size_t weather_vectors(const SimulationModel& model);
+/// Returns where in it a substep of a member begins.
+std::size_t first_weather(const SimulationModel& model, std::size_t member, std::uint32_t substep);
 /// Returns the number of collider records in a frame: one for each entry of every list
 /// (SimulationModel::kept_colliders), or one for each substep if any collider is key-framed.
 std::size_t collider_record_count(const SimulationModel& model);

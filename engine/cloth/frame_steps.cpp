@@ -5,6 +5,7 @@
 
 #include "cloth/cloth_state.h"
 #include "cloth/forces.h"
+#include "cloth/frame_inputs.h"
 #include "cloth/texels.h"
 
 namespace drape {
@@ -148,7 +149,10 @@ class SewnSubstep {
   private:
     void add(StepKind kind, std::size_t cloth, int stage) {
         const auto count = static_cast<int>(model_.cloths[cloth].sewn.size());
-        if (count > 0) steps_.push_back({kind, cloth, substep_, 0, glsl::SeamPush{count, stage, opening_, 0}});
+        if (count == 0) return;
+        const std::size_t weather = first_weather(model_, model_.cloths[cloth].member, substep_);
+        steps_.push_back(
+            {kind, cloth, substep_, 0, glsl::SeamPush{count, stage, opening_, static_cast<int>(weather) + 1}});
     }
     void hand_on(int stage) {
         for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_give, cloth, stage);

@@ -158,6 +158,7 @@ Sewn Stations::sewn_of(const Entry& entry, std::size_t index, const Asked& asked
     sewn.between = {-1, 1, opening_of(sewing_.stations[index].close), 0};
     sewn.weights = {0, single(masses_.inner(asked.cloth) / all), 0, single(entry.weight)};
     sewn.parts = {0, single(own / station.mass_by_cloth.at(asked.cloth)), 0, 0};
+    sewn.carried = {single(all - own), 0, 0, 0};
     if (entry.between) {
         const auto& [group, stations, weights, close, seam] = *entry.between;
         const std::size_t own_side = stations[0] == index ? 0 : 1;

@@ -124,6 +124,7 @@ constexpr ConstantRow constant_rows[] = {
     {"sews_predicted", [](Place p) { return seam_moves_all(p) ? 1u : 0u; }},
     {"sews_touched", sews_touched},
     {"sews_vectors", [](Place p) { return seam_has_vectors(p) ? 1u : 0u; }},
+    {"sews_weight", [](Place p) { return p.model.weighs && seam_stage(p) == glsl::seam_forces ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
     {"splits", [](Place p) { return splits_pins(p.model.scene) ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},

@@ -139,8 +139,6 @@ std::optional<SeamFault> fault_of(const SceneDescription& scene, const Seam& sea
 /// Returns what of a scene does not go with seams.
 std::string excluded_by(const SceneDescription& scene) {
     if (cloths_meet(scene)) return "expected no seams where cloths have self_collision: contact does not know them yet";
-    if (!scene.gravity_keys.empty())
-        return "expected no seams beside gravity_keys: a sewn particle would weigh twice as much more";
     if (std::ranges::any_of(scene.colliders, [](const Collider& collider) { return collider.mass.has_value(); }))
         return "expected no seams beside a body with a mass: what a seam evens out, the body would not get back";
     if (scene.forces) return "expected no seams beside forces: what a seam transmits is not told yet";

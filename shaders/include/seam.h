@@ -53,6 +53,13 @@ SHARED vec4 sewn_force(vec4 sum, vec4 force) {
     return more;
 }
 
+/// Takes from a force on a particle what the change of gravity makes of mass (kg) that is others'.
+SHARED vec4 without_carried(vec4 force, vec3 more_gravity, float carried, float inverse_mass) {
+    precise vec4 own = vec4(force.x - more_gravity.x * carried, force.y - more_gravity.y * carried,
+                            force.z - more_gravity.z * carried, force.w);
+    return inverse_mass > 0.0f ? own : force;
+}
+
 /// Returns what of the forces on a place is one particle's, where several of a cloth share the mass of the place.
 SHARED vec4 own_force(vec4 sum, float part) {
     precise vec4 own = vec4(sum.x * part, sum.y * part, sum.z * part, sum.w * part);

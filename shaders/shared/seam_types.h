@@ -17,7 +17,7 @@ struct SeamPush {
     int particle_count;  // the cloth's, at seams
     int stage;
     int opening;  // the first of the substep's openings
-    int unused;
+    int weather;  // where in `wind` the substep's change of gravity is
 };
 
 /// A particle of a cloth at a place where it is sewn. One that lies between two places is listed at both.
@@ -33,6 +33,7 @@ struct SewnParticle {
                    // of its own cloth there; z: the same in the other place's; w: 1 = some of the cloth's particles at
                    // the place lie between two
     vec4 gap;      // xyz: m from the place to where it starts; w: how much of it is the other place's
+    vec4 carried;  // x: kg of others' that count as its own in its cloth; yzw: 0
 };
 
 /// How much of their gaps is left of the particles at seams that close alike, when a substep begins and ends.

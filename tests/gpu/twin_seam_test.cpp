@@ -51,6 +51,13 @@ TEST_P(TwinSeamTest, SeamsThatClose) {
     compare(alike);
 }
 
+TEST_P(TwinSeamTest, GravityThatChanges) {
+    for (SceneDescription scene : {three_panels(GetParam()), test::unlike_panels(GetParam(), 0.06), tube(GetParam())}) {
+        scene.gravity_keys = {{0, {0, 0, 0}}, {0.05, {0.4, -12, 0}}, {0.2, {0, -3, 1}}};
+        compare(scene);
+    }
+}
+
 TEST_P(TwinSeamTest, CopiesOfAParticleStayTheSame) {
     for (const SceneDescription& scene : {two_panels(GetParam()), three_panels(GetParam()), tube(GetParam())}) {
         const SimulationModel model(scene);

@@ -189,6 +189,31 @@ TEST(SeamBetween, FreeClothKeepsItsMomentum) {
     }
 }
 
+/// Returns the velocity, m/s, with which a free scene falls after half a second in which gravity grows from none to its
+/// own in half of the time.
+Vec3 fallen(SceneDescription scene, SolverMethod method) {
+    scene = with_method(std::move(scene), method, method == SolverMethod::explicit_steps ? 64 : 16);
+    scene.cloths[0].pins.clear();
+    scene.gravity_keys = {{0, {0, 0, 0}}, {0.25, {0, -9.81, 0}}};
+    const SimulationModel model(scene);
+    Twin twin(model);
+    for (std::uint32_t frame = 1; frame <= 30; ++frame) twin.run_frame(frame);
+    const Momenta last = momenta_of(model, twin);
+    return times(1 / last.mass, last.linear);
+}
+
+TEST(SeamBetween, GravityThatGrowsActsOnAllMassOnce) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps}) {
+        const Vec3 plain = fallen(plain_sheet(12), method);
+        // The velocity is that of a substep's length before the end at the earliest.
+        EXPECT_NEAR(plain[1], -9.81 * 0.375, 9.81 / 60 / 16);
+        for (SceneDescription scene : {unlike_halves(12, 16), halves(12, true)}) {
+            scene.cloths[1].areal_density = 0.35;
+            EXPECT_LT(length(minus(fallen(scene, method), plain)), 1e-5) << std::string(named(method).name);
+        }
+    }
+}
+
 /// Cloth never has more than the energy of its strained start and of its fall, whose most is that of a metre.
 TEST(SeamBetween, FortyBadStartsDoNotBlowUp) {
     double most = 0;

@@ -67,6 +67,10 @@ void give_vectors(const TwinPlace& where) {
     const bool normals = stage_of(where) == seam_normals;
     for_sewn(where, [&](const Given& given) {
         vec4 own = vectors_of(where)[given.particle()];
+        if (where.scene.weighs && !normals)
+            own = without_carried(own,
+                                  xyz(where.inputs.wind[static_cast<std::size_t>(where.step.push<SeamPush>().weather)]),
+                                  given.sewn().carried.x, where.state[Field::position][given.particle()].w);
         if (given.is_between()) own = own_force(own, given.sewn().weights.w);
         vec4& sum = given.place.vector;
         sum = given.sewn().weights.z != 0 ? own
