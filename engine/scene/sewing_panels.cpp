@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -64,9 +65,15 @@ void write_pattern_scene(const std::vector<PatternPanel>& panels, const std::vec
     for (const std::string& body : options.bodies) meshes.push_back("{\"file\": " + drape::quoted(body) + "}");
     result.panels = cloths.size();
     result.seams = sewn.size();
-    // Sewing takes its time, and the cloth two seconds more to come to rest.
-    result.scene = fmt::format("{{\n  \"time\": {{\"frames\": {}}},\n  \"cloths\": [\n{}\n  ]",
-                               std::ceil(60 * (options.close + 2)), fmt::join(cloths, ",\n"));
+    // Clothes would fall off while they are sewn, so gravity comes afterwards; then they have two seconds to settle.
+    const double weighed = options.close + 0.3;
+    result.scene = fmt::format("{{\n  \"time\": {{\"frames\": {}}},\n", std::ceil(60 * (weighed + 2)));
+    result.scene +=
+        fmt::format(R"(  "gravity_keys": [{{"t": 0, "gravity": [0, 0, 0]}}, {{"t": {}, "gravity": [0, 0, 0]}},
+                   {{"t": {}, "gravity": [0, -9.81, 0]}}],
+)",
+                    std::max(options.close, 1e-3), weighed);
+    result.scene += fmt::format("  \"cloths\": [\n{}\n  ]", fmt::join(cloths, ",\n"));
     if (!sewn.empty()) result.scene += fmt::format(",\n  \"seams\": [\n{}\n  ]", fmt::join(sewn, ",\n"));
     if (!meshes.empty())
         result.scene += fmt::format(",\n  \"colliders\": {{\"meshes\": [{}]}}", fmt::join(meshes, ", "));

@@ -61,7 +61,8 @@ TEST(SewingPattern, PanelsBecomeClothsWithOutlines) {
     EXPECT_THAT(numbers(front["placement"]["u"]), Pointwise(DoubleNear(1e-12), {0., 0., -1.}));
     EXPECT_THAT(numbers(front["placement"]["v"]), ElementsAre(0, 1, 0));
     EXPECT_EQ(scene["colliders"]["meshes"][0]["file"], "figure.obj");
-    EXPECT_EQ(scene["time"]["frames"], 150);
+    EXPECT_EQ(scene["time"]["frames"], 168);
+    EXPECT_EQ(scene["gravity_keys"][1]["t"], 0.5);
 }
 
 /// The lowest point of the hem's arc is below its chord by what a circle's segment is high.

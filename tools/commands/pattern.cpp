@@ -46,8 +46,8 @@ void add_pattern(Program& program) {
         program.add("pattern", "Make a scene of a sewing pattern: GarmentCode's JSON, or a mesh with flat islands",
                     R"text(
 Every panel becomes a cloth with an outline, every stitch a seam, which draws its sides together. Of a mesh (.obj) every
-island of its texture becomes a panel; what is one on the mesh is sewn. The scene is there to go on with: colors,
-contact, and pins where nothing holds the clothes.
+island of its texture becomes a panel; what is one on the mesh is sewn. Gravity comes when it is done. The scene is
+there to go on with: colors, contact, and pins where nothing holds the clothes.
 
 Examples:
   drape pattern t_shirt.json --body figure.obj -o my_t_shirt.json
