@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "scene/oracle_kinds.h"
@@ -292,6 +293,25 @@ Verdict supported(const SceneRun& run, const Limits& limits) {
                         limits["below"], limits["above"])};
 }
 
+/// What holds a cloth and what it lies on bear its weight and its loads, as it hardly moves any more.
+Verdict borne(const SceneRun& run, const Limits& limits) {
+    const double middle = run.time(run.last_frame()) - 0.5 / run.scene.time.fps;
+    double worst = 0;
+    std::string told;
+    for (std::size_t index = 0; index < run.scene.cloths.size(); ++index) {
+        const ClothMeasure measure(run.scene, index);
+        const double mass = std::accumulate(measure.mass.begin(), measure.mass.end(), 0.0);
+        Vec3 expected = times(-mass, gravity_at(run.scene, middle)), found{};
+        for (const Load& load : run.scene.cloths[index].loads) expected = minus(expected, force_at(load, middle));
+        for (const ForceOnCloth& force : run.forces.back().at(index))
+            if (force.by.starts_with("pins_") || force.by.starts_with("collider_")) found = plus(found, force.force);
+        worst = std::max(worst, length(minus(found, expected)) / length(expected));
+        told += fmt::format("{} of {:.6g} N; ", run.scene.cloths[index].name, length(expected));
+    }
+    return {worst <= limits["relative_error"],
+            fmt::format("{}off by {:.1e} at most, allowed {:.1e}", told, worst, limits["relative_error"])};
+}
+
 /// No triangle crosses another one, except within a cloth without self-contact that may touch other cloths. A triangle
 /// that was split touches nothing.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
@@ -336,7 +356,8 @@ std::span<const SceneCheck> shape_checks() {
                                             {"mass_kept", mass_kept},
                                             {"penetration", penetration},
                                             {"uncrossed", uncrossed},
-                                            {"supported", supported}};
+                                            {"supported", supported},
+                                            {"borne", borne}};
     return checks;
 }
 

@@ -27,6 +27,7 @@ SceneRun SceneRun::until(std::size_t last) const {
     SceneRun part{scene, {frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(end)}, {}};
     part.bodies.assign(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(std::min(last + 1, bodies.size())));
     std::ranges::copy_if(cuts, std::back_inserter(part.cuts), [&](const CutRecord& cut) { return cut.frame < end; });
+    part.forces.assign(forces.begin(), forces.begin() + static_cast<std::ptrdiff_t>(std::min(end, forces.size())));
     return part;
 }
 
@@ -50,7 +51,7 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
     RunListener listener;
     options.draw = false;
     options.positions = wanted.positions;
-    options.statistics = options.judges = wanted.frame != nullptr;
+    options.statistics = options.judges = wanted.frame != nullptr || scene.forces;
     options.timestamps = graph::TimestampMode::none;
     listener.keep_promises = false;  // frames that miss a limit are judged later
     listener.on_cut = [&](const CutEvent& event, const CutTopology& topology) {
@@ -64,6 +65,8 @@ SceneRun run_frames(const vulkan::Device& device, const SceneDescription& scene,
         if (wanted.frame) wanted.frame(frame);
         if (!wanted.positions) return;
         run.bodies.push_back(frame.bodies);
+        auto& forces = run.forces.emplace_back();
+        for (const ClothStatistics& cloth : frame.statistics) forces.push_back(cloth.forces);
         auto& cloths = run.frames.emplace_back();
         for (const std::span<const float> values : frame.positions) {
             auto& texels = cloths.emplace_back(values.size() / 4);

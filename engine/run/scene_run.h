@@ -30,6 +30,7 @@ struct SceneRun {
 
     std::vector<CutRecord> cuts;  ///< in order; if the scene has cutters, one for each cloth at frame 0
     std::vector<std::vector<BodyState>> bodies = {};  ///< [frame]: those that cloth moves; none where no scene has any
+    std::vector<std::vector<std::vector<ForceOnCloth>>> forces = {};  ///< [frame][cloth]: where the scene wants them
 
     std::size_t last_frame() const { return frames.size() - 1; }
     double time(std::size_t frame) const { return static_cast<double>(frame) / scene.time.fps; }  ///< s

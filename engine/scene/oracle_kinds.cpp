@@ -72,6 +72,12 @@ std::string_view no_relaxation(const SceneDescription& scene) {
     return scene.solver.method == SolverMethod::relax ? "" : "the law is that of method relax";
 }
 
+std::string_view no_forces(const SceneDescription& scene) {
+    const auto presses = [](const Cloth& cloth) { return std::ranges::any_of(cloth.loads, &Load::presses); };
+    if (!scene.forces) return "the scene does not ask for forces";
+    return std::ranges::any_of(scene.cloths, presses) ? "a load presses" : "";
+}
+
 KeyText key(std::string_view name, std::string_view help) { return {name, help, {}, {}, {}, false}; }
 
 constexpr OracleLimit which_cloth{"cloth", "number of the cloth, from 0", true};
@@ -102,6 +108,10 @@ std::vector<OracleKind> kinds_of_shape() {
           {"above", "how much higher it may be, metres"},
           {"below", "how much lower it may be, metres"}},
          nothing},
+        {"borne",
+         "In the last frame pins and colliders bear the weight of each cloth and the forces of its loads.",
+         {{"relative_error", "largest error, in units of what is borne"}},
+         no_forces},
         {"pins_hold", "Pins without path and release never move by a bit.", {}, no_still_pin},
         {"pins_follow",
          "Pins with a path are where it takes them in every frame.",

@@ -48,6 +48,9 @@ void never_released(SceneDescription& scene) {
 void no_self_collision(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.self_collision.reset();
 }
+void no_loads(SceneDescription& scene) {
+    for (Cloth& cloth : scene.cloths) cloth.loads.clear();
+}
 void never_sewn(SceneDescription& scene) { scene.seams.clear(); }
 void never_cut(SceneDescription& scene) {
     scene.cutters.clear();
@@ -141,6 +144,8 @@ const std::vector<SceneBreak> breaks{
     {"two_corner_drape", "swing", "no damping", 30, no_damping},
     {"two_corner_drape", "mirror", "one side weighs half", 14, nullptr, one_side_weighs_half},
     {"two_corner_drape", "stretch", "springs a thousand times too soft", 14, springs_a_thousand_times_too_soft},
+    {"weighted_sheet", "borne", "no loads", to_the_end, no_loads},
+    {"weighted_sheet", "stretch", "springs a thousand times too soft", 30, springs_a_thousand_times_too_soft},
 };
 
 }  // namespace
