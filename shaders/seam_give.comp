@@ -86,7 +86,8 @@ float give_touched(SewnParticle particle, int place, SewnPlace begun, int count,
 }
 
 /// A cloth's particles at a place have the mass of all that are sewn there between them, so their mean is what the
-/// springs' impulses give to it. Where some lie between two places, each one's change counts by its part in the mass.
+/// springs' impulses give to it. Where some lie between two places, each one's change counts by its part in the mass;
+/// a held place bears it.
 void give_solved(SewnParticle particle, int own, int place, SewnPlace begun) {
     vec4 mean = sewn_places[place].displacement;
     vec3 moved = imageLoad(displacement, particle.at.xy).xyz;
@@ -95,6 +96,7 @@ void give_solved(SewnParticle particle, int own, int place, SewnPlace begun) {
     }
     vec3 changed = sewn_change(mean.xyz, moved, begun.displacement.xyz, particle.parts.y);
     bool changes = sews_between && particle.parts.w != 0.0f;
+    if (begun.position.w == 0.0f) changed = mean.xyz;
     sewn_places[place].displacement = vec4(changes ? changed : sewn_mean(mean.xyz, moved, particle.parts.x), mean.w);
 }
 

@@ -246,6 +246,25 @@ TEST(SeamBetween, FortyBadStartsDoNotBlowUp) {
     std::printf("[ measured ] 40 bad starts: at most %.2f of their energy is kinetic\n", most);
 }
 
+TEST(SeamBetween, AHeldPlaceBearsWhatLiesBesideIt) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps})
+        for (const std::uint32_t other_links : {8u, 16u}) {
+            SceneDescription scene =
+                with_method(unlike_halves(12, other_links), method, method == SolverMethod::explicit_steps ? 64 : 8);
+            const std::uint32_t row = scene.cloths[0].grid[1] - 1;
+            scene.cloths[0].pins = {pin_box(0, row, 0, row)};
+            const SimulationModel model(scene);
+            Twin twin(model);
+            const std::size_t corner = std::size_t{row} * scene.cloths[0].grid[0];
+            const Vec3 start = place_of(twin.cloth(0), corner);
+            for (std::uint32_t frame = 1; frame <= 6; ++frame) {
+                twin.run_frame(frame);
+                EXPECT_EQ(place_of(twin.cloth(0), corner), start) << frame;
+                EXPECT_EQ(place_of(twin.cloth(1), 0), start) << frame;
+            }
+        }
+}
+
 /// Halves that start apart: as far, aslant, and turned about the seam.
 SceneDescription open_halves(std::uint32_t other_links, double close) {
     SceneDescription scene = unlike_halves(12, other_links);

@@ -125,9 +125,10 @@ void give_solved(const TwinPlace& where) {
         vec3 moved = xyz(where.state[Field::displacement][given.particle()]);
         if (given.is_between()) moved = sewn_lead(moved, lead_of(where, given.own));
         const vec3 mean = xyz(given.place.displacement);
-        given.place.displacement = texel(parts.w != 0 ? sewn_change(mean, moved, xyz(given.begun.displacement), parts.y)
-                                                      : sewn_mean(mean, moved, parts.x),
-                                         given.place.displacement.w);
+        vec3 changed = sewn_change(mean, moved, xyz(given.begun.displacement), parts.y);
+        if (given.begun.position.w == 0) changed = mean;
+        given.place.displacement =
+            texel(parts.w != 0 ? changed : sewn_mean(mean, moved, parts.x), given.place.displacement.w);
     });
 }
 
