@@ -91,9 +91,9 @@ struct SceneInputs {
     /// Fields of meshes that deform are made from these (shared/form_types.h); invalid where none does.
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
     graph::Handle body_actions;  ///< a BodyAction per member and body; invalid where no action pushes bodies
-    graph::Handle sewn_places;  ///< of all cloths: a SewnPlace each; passes write it
-    graph::Handle openings;     ///< a SeamOpening per substep and time of closing; invalid where no seam closes
-    graph::Handle attempt;      ///< closed loops: a SubstepChange per cloth
+    graph::Handle sewn_places;   ///< of all cloths: a SewnPlace each; passes write it
+    graph::Handle openings;      ///< a SeamOpening per substep and time of closing; invalid where no seam closes
+    graph::Handle attempt;       ///< closed loops: a SubstepChange per cloth
 };
 
 /// "<cloth>/<name>": the resource of a field; those of the state have one in every set.

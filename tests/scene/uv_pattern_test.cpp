@@ -40,7 +40,8 @@ std::string tube(int islands, bool mirrored = false) {
     for (int row = 0; row <= up; ++row)
         for (int i = 0; i < around; ++i) {
             const double angle = 2 * std::numbers::pi * i / around;
-            text += fmt::format("v {:.12g} {:.12g} {:.12g}\n", radius * std::sin(angle), height * row / up, radius * std::cos(angle));
+            text += fmt::format("v {:.12g} {:.12g} {:.12g}\n", radius * std::sin(angle), height * row / up,
+                                radius * std::cos(angle));
         }
     const int wide = around / islands;
     const double side = 2 * radius * std::sin(std::numbers::pi / around);
