@@ -30,7 +30,7 @@ Vec3 inertia_of(const Collider& body) {
 }
 
 Vec3 vector_at(std::span<const float> row, int texel) {
-    const auto* const first = &row[static_cast<std::size_t>(4 * texel)];
+    const auto* const first = &row[4 * static_cast<std::size_t>(texel)];
     return {double{first[0]}, double{first[1]}, double{first[2]}};
 }
 
