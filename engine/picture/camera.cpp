@@ -79,8 +79,8 @@ Camera camera_at(const Camera& camera, double time) {
     Camera still = camera;
     still.keys.clear();
     if (camera.keys.empty()) return still;
-    still.position = value_at(camera.keys, &CameraKey::position, time);
-    still.target = value_at(camera.keys, &CameraKey::target, time);
+    still.position = keyed_value(camera.keys, &CameraKey::position, time);
+    still.target = keyed_value(camera.keys, &CameraKey::target, time);
     return still;
 }
 

@@ -89,7 +89,7 @@ std::array<double, 9> rotation_matrix(const Vec3& degrees) {
 }
 
 template <class Key>
-Vec3 value_at(const std::vector<Key>& keys, Vec3 Key::*value, double time) {
+Vec3 keyed_value(const std::vector<Key>& keys, Vec3 Key::*value, double time) {
     if (keys.empty()) return {};
     const auto later =
         std::upper_bound(keys.begin(), keys.end(), time, [](double t, const Key& key) { return t < key.time; });
@@ -98,10 +98,11 @@ Vec3 value_at(const std::vector<Key>& keys, Vec3 Key::*value, double time) {
     if (later == keys.end() || time == keys[k].time) return keys[k].*value;
     return interpolate(keys, k, time, value);
 }
-template Vec3 value_at(const std::vector<CameraKey>&, Vec3 CameraKey::*, double);
+template Vec3 keyed_value(const std::vector<CameraKey>&, Vec3 CameraKey::*, double);
 
 MotionKey key_at(const MotionPath& path, double time) {
-    return {time, value_at(path.keys, &MotionKey::translate, time), value_at(path.keys, &MotionKey::rotate, time)};
+    return {time, keyed_value(path.keys, &MotionKey::translate, time),
+            keyed_value(path.keys, &MotionKey::rotate, time)};
 }
 
 bool rests(const MotionPath& path, double from, double to) {
