@@ -28,6 +28,7 @@ layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position_in;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement_in;
 VECTOR_OUT(2, displacement_out);
 VECTOR_KEPT(3, displacement_before);
+VECTOR_KEPT(18, displacement_remainder);
 layout(constant_id = 22) const bool second_order = false;
 layout(set = 0, binding = 4, r32ui) uniform uimage2D line_control;
 layout(constant_id = 24) const bool after_edges = false;
@@ -77,6 +78,13 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     led_ways[place] = vec4(way, 0.0f);
     before[place].w = before[place].w != 0.0f ? self_pushed_and_led : self_led_out;
     return whole;
+}
+
+/// Adds to what the substep lost of a particle's displacement.
+void keep_lost(ivec2 texel, vec3 lost) {
+    vec4 remainder;
+    LOAD_VECTOR(remainder, displacement_remainder, texel)
+    STORE_VECTOR(displacement_remainder, texel, vec4(led_sum(remainder.xyz, lost), 0.0f));
 }
 
 /// Returns the displacement with which a particle comes to the colliders; w is above 0 if an edge of a collider moved
@@ -238,7 +246,7 @@ bool meet_all(ivec2 texel, bool follows) {
     int round = 0;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
-    vec3 way_out = vec3(0.0f);
+    vec3 way_out = vec3(0.0f), lost = vec3(0.0f);
     do {
         Contact contact = contact_with_all(push.first, start.xyz, displacement, own.x, own.y, push.contact.w, true, follows,
                                            went_far);
@@ -247,6 +255,7 @@ bool meet_all(ivec2 texel, bool follows) {
         normal = contact.depth > 0.0f ? contact.normal : normal;
         grip = contact.depth > 0.0f ? contact.grip : grip;
         way_out = round == 0 ? contact.led : way_out;
+        lost = contact.depth > 0.0f ? contact.lost : lost;
         if (!(contact.depth > push.contact.z)) break;
         ++round;
     } while (round < round_count);
@@ -257,6 +266,7 @@ bool meet_all(ivec2 texel, bool follows) {
                     ? led_out(texel, start, displacement, way_out)
                     : displacement;
     leave(texel, made, moved);
+    keep_lost(texel, lost);
     bool lies = supporting && (normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f);
     if (supporting) {
         vec3 touches = displacement;

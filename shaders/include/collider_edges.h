@@ -268,7 +268,7 @@ SHARED vec3 bent_contact(ColliderRecord collider, vec3 start, vec3 displacement,
     if (slope > same_way) return displacement;
     precise float depth = plain.depth / slope;
     vec3 surface = vec3(plain.grip.x, plain.grip.y, plain.grip.z);
-    return contact_displacement(displacement, surface, world_direction(collider, way), depth, plain.grip.w);
+    return contact_displacement(displacement, surface, world_direction(collider, way), depth, plain.grip.w).value;
 }
 
 /// Returns the plane that touches a mesh where the mesh is nearest to a triangle's corner: normal (unit, outward,
@@ -425,7 +425,7 @@ SHARED vec3 taken_displacement(vec3 displacement, Taken taken, vec3 surface, Col
     precise float pair_friction = friction * collider.shape.w;
     precise vec3 led = displacement + normal * taken.led;
     precise float pressed = depth - taken.led;
-    return contact_displacement(led, surface, normal, not_below_zero(pressed), pair_friction);
+    return contact_displacement(led, surface, normal, not_below_zero(pressed), pair_friction).value;
 }
 
 #endif

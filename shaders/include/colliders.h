@@ -161,6 +161,7 @@ struct Contact {
     vec3 normal;  // of the surface, in the world frame
     vec4 grip;    // as in Support
     vec3 led;     // the part of the displacement that leads the particle out of an overlap, which is no velocity, m
+    vec3 lost;    // what rounding lost of the displacement, m
 };
 
 SHARED vec3 moved_position(vec3 start, vec3 displacement) {
@@ -402,8 +403,8 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     float length = length_of(displacement), motion = collider.way_out.w;
     bool far = all_its_way && goes_far(kind, size_of(collider), length, motion, thickness);
     float reach = far ? way_reach(kind, size_of(collider), length, motion, thickness) : thickness;
-    Contact none =
-        Contact(displacement, 0.0f, vec3(0.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 0.0f));
+    vec3 nothing = vec3(0.0f, 0.0f, 0.0f);
+    Contact none = Contact(displacement, 0.0f, nothing, vec4(0.0f, 0.0f, 0.0f, 0.0f), nothing, nothing);
     if (kind == kind_ellipsoid && beyond_bounds(local, size_of(collider), reach)) return none;
     if (kind == kind_mesh && !far && beyond_reach(kind, collider, now, thickness)) return none;
     SurfacePoint found = collider_surface(kind, collider, now, local FIELDS);
@@ -451,8 +452,9 @@ SHARED Contact collider_contact(int kind, ColliderRecord collider, vec3 start, v
     if (!(depth > least)) return none;
     precise float pair_friction = friction * collider.shape.w;
     precise vec3 led = out_of * deep.led;
-    vec3 held = contact_displacement(displacement, surface, out_of, deep.pressed, pair_friction);
-    return Contact(led_sum(held, led), depth, out_of, vec4(surface.x, surface.y, surface.z, pair_friction), led);
+    CompensatedSum held = contact_displacement(displacement, surface, out_of, deep.pressed, pair_friction);
+    vec4 grip = vec4(surface.x, surface.y, surface.z, pair_friction);
+    return Contact(led_sum(held.value, led), depth, out_of, grip, led, held.remainder);
 }
 
 #endif

@@ -3,24 +3,27 @@
 #define DRAPE_CONTACT_LAW_H
 
 #include "include/vector.h"
+#include "include/verlet.h"
 #include "shared/collider_types.h"
 
 /// Returns the displacement after contact: `depth` of the motion into the surface is taken away along `normal`, and the
 /// motion relative to the surface along the tangent is reduced by friction * depth, at most to zero (Jakobsen 2001).
 /// This is Coulomb's law, since what is taken away along the normal in a time is the impulse that the surface gives in
-/// it: of a resting particle g cos(a) h^2. `displacement`, `surface` (the collider's own): m.
-SHARED vec3 contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
+/// it: of a resting particle g cos(a) h^2. `displacement`, `surface` (the collider's own): m. The remainder is what
+/// rounding lost: in a short substep it is a share of what friction takes, and does not average out.
+SHARED CompensatedSum contact_displacement(vec3 displacement, vec3 surface, vec3 normal, float depth, float friction) {
     precise vec3 relative = displacement - surface;
     precise float along = ordered_dot(relative, normal);
     precise vec3 tangent = relative - normal * along;
     precise float squared = ordered_dot(tangent, tangent);
     precise float grip = friction * depth;
-    precise vec3 pushed = displacement + normal * depth;
-    if (!(squared > 0.0f) || !(grip > 0.0f)) return pushed;
+    precise vec3 pushed = normal * depth;
+    vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    if (!(squared > 0.0f) || !(grip > 0.0f)) return compensated_add(displacement, pushed, none);
     precise float sliding = sqrt(squared);
     precise float kept = sliding > grip ? grip / sliding : 1.0f;
-    precise vec3 slowed = pushed - tangent * kept;
-    return slowed;
+    precise vec3 change = pushed - tangent * kept;
+    return compensated_add(displacement, change, none);
 }
 
 SHARED vec3 support_normal(Support support) { return vec3(support.plane.x, support.plane.y, support.plane.z); }
@@ -29,7 +32,7 @@ SHARED vec3 support_normal(Support support) { return vec3(support.plane.x, suppo
 SHARED vec3 supported(vec3 displacement, Support support) {
     vec3 normal = support_normal(support), surface = vec3(support.grip.x, support.grip.y, support.grip.z);
     precise float depth = support.plane.w - ordered_dot(normal, displacement);
-    vec3 held = contact_displacement(displacement, surface, normal, depth, support.grip.w);
+    vec3 held = contact_displacement(displacement, surface, normal, depth, support.grip.w).value;
     return depth > 0.0f ? held : displacement;
 }
 

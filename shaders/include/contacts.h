@@ -75,6 +75,7 @@ int next_near(int first, int i, int end, vec3 start, vec3 displacement, float th
     Contact contact = collider_contact(kind, collider, start, displacement, thickness, friction, recovery, follows);  \
     ON_CONTACT(i, contact, displacement)                                                                              \
     if (in_turn) displacement = contact.displacement;                                                                 \
+    lost = contact.depth > deepest ? contact.lost : lost;                                                             \
     normal = contact.depth > deepest ? contact.normal : normal;                                                       \
     grip = contact.depth > deepest ? contact.grip : grip;                                                             \
     led = led_sum(led, contact.led);                                                                                  \
@@ -107,13 +108,14 @@ bool near_early(vec3 now, float length, float thickness) {
 /// Returns the contact with all colliders from `first` on. With `in_turn`, each collider takes the displacement that
 /// the earlier ones left; otherwise all take the given one, and only the depth at its end counts. Without `follows`, a
 /// particle that goes so far that its path must be followed is judged by its end alone, and `went_far` becomes true.
-/// Normal and grip are those of the deepest contact.
+/// Normal, grip and what was lost are those of the deepest contact. A sum of what was lost would be wrong: lavapipe adds
+/// once more for lanes that have left a loop which others go on with.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn, bool follows, inout bool went_far) {
     float deepest = 0.0f;
     vec3 normal = vec3(0.0f);
     vec4 grip = vec4(0.0f);
-    vec3 led = vec3(0.0f);
+    vec3 led = vec3(0.0f), lost = vec3(0.0f);
     CONTACTS(kind_plane, 0, planes_end)
     // The loops within these branches would prevent lavapipe from skipping them.
     if (planes_end < spheres_end) {
@@ -131,5 +133,5 @@ Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickne
     if (has_meshes) {
         CONTACTS(kind_mesh, capsules_end, meshes_end)
     }
-    return Contact(displacement, deepest, normal, grip, led);
+    return Contact(displacement, deepest, normal, grip, led, lost);
 }

@@ -83,10 +83,7 @@ TEST(CoulombTest, SlidesByTheLawAtAnyNumberOfSubsteps) {
                 const double slid = along(moved_in(on_slope(turned(shape), mu, method, substeps), frames), downhill);
                 std::printf("[ measured ] kind %zu, method %d, %u substeps: %.7f m, law %.7f, off by %.1e of it\n",
                             shape.index(), static_cast<int>(method), substeps, slid, law, slid / law - 1);
-                // At 4,096 substeps each gives 24 pm, of which half a rounding of the displacement, 0.8 um, is a
-                // thousandth; at 256, 6 nm, of which that of 40 um is 3e-4. By relaxation the turn rounds once more.
-                const double rounding = substeps > 1000 ? 2e-4 : substeps > 200 ? 2e-5 : 1e-5;
-                EXPECT_NEAR(slid, law, rounding * law + start_costs(shape))
+                EXPECT_NEAR(slid, law, 1e-5 * law + start_costs(shape))
                     << "kind " << shape.index() << ", method " << static_cast<int>(method) << ", " << substeps;
             }
 }

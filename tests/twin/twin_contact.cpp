@@ -160,7 +160,7 @@ void run_collide(const TwinPlace& where) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
         const vec2 skin = model.skin_of(i);
-        vec3 displacement = displacement_before_colliders(where, i), way_out{};
+        vec3 displacement = displacement_before_colliders(where, i), way_out{}, lost{};
         bool touched = step.after_edges && state[Field::lifted][i].w > 0.0f;
         TwinGivers givers;
         if (touched && impulses.are_wanted())
@@ -170,7 +170,7 @@ void run_collide(const TwinPlace& where) {
         vec4 on_grip{};
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
             float deepest = 0.0f;
-            vec3 normal{}, led{};
+            vec3 normal{}, led{}, lost_to_it{};
             vec4 grip{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact = collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k],
@@ -181,12 +181,13 @@ void run_collide(const TwinPlace& where) {
                 displacement = contact.displacement;
                 normal = contact.depth > deepest ? contact.normal : normal;
                 grip = contact.depth > deepest ? contact.grip : grip;
+                lost_to_it = contact.depth > deepest ? contact.lost : lost_to_it;
                 deepest = contact.depth > deepest ? contact.depth : deepest;
                 led = led_sum(led, contact.led);
             }
             if (round == 0) way_out = led;
             touched = touched || deepest > 0.0f;
-            if (deepest > 0.0f) lies_on = normal, on_grip = grip;
+            if (deepest > 0.0f) lies_on = normal, on_grip = grip, lost = lost_to_it;
             if (!(deepest > push.contact.z)) break;
         }
         if (!touched) continue;
@@ -206,6 +207,8 @@ void run_collide(const TwinPlace& where) {
             hold = std::max(hold, line_hold_contact);
         }
         leave(where, i, made);
+        vec4& remainder = state[Field::displacement_remainder][i];
+        remainder = texel(led_sum(xyz(remainder), lost));
     }
 }
 
