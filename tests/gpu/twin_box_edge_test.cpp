@@ -98,6 +98,16 @@ TEST(TwinBoxEdgeTest, ClothThatStartsInBoxes) {
     compare(scene);
 }
 
+TEST(TwinBoxEdgeTest, ClothThatStartsInSpheresThatAreReadLate) {
+    SceneDescription scene = over_boxes(SolverMethod::line);
+    scene.cloths[0].velocity = {};
+    scene.colliders.clear();
+    for (int k = 0; k < 8; ++k) scene.colliders.push_back({Sphere{{0.3 * k, -3, 0}, 0.1}});  // the early ones
+    for (const double x : {-0.4, -0.28, -0.1, 0.0, 0.05, 0.3})
+        scene.colliders.push_back({Sphere{{x, 0.03, x - 0.1}, 0.12}, 0.4});
+    compare(scene);
+}
+
 TEST(TwinBoxEdgeTest, ThicknessThatCoversACellNeedsNoEdges) {
     SceneDescription scene = over_boxes(SolverMethod::line);
     scene.cloths[0].thickness = 0.05;
