@@ -1,6 +1,11 @@
 // Sewn sheets, and what is measured of their runs by the twin.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
 #include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
 #include "support/sheets.h"
@@ -84,6 +89,33 @@ inline double kinetic_energy(const SimulationModel& model, const Twin& twin) {
         }
     }
     return all / (model.cloths[0].substep_length * model.cloths[0].substep_length);
+}
+
+/// Lets two sewn cloths of 0.5 m² go, whose masses and velocities differ, and holds their momenta after half a second
+/// against those of the first frame, by every method.
+inline void expect_kept_momentum(const SceneDescription& sewn) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax, SolverMethod::explicit_steps}) {
+        SceneDescription scene = with_method(sewn, method, method == SolverMethod::explicit_steps ? 64 : 16);
+        scene.gravity = {};
+        scene.cloths[0].pins.clear();
+        scene.cloths[0].velocity = {0, 1, 0.2};
+        scene.cloths[1].velocity = {0.3, -1, 0};
+        scene.cloths[1].areal_density = 0.35;
+        scene.cloths[0].placement.jitter = scene.cloths[1].placement.jitter = 0.005;
+        const SimulationModel model(scene);
+        Twin twin(model);
+        twin.run_frame(1);
+        const Momenta first = momenta_of(model, twin);
+        for (std::uint32_t frame = 2; frame <= 30; ++frame) twin.run_frame(frame);
+        const Momenta last = momenta_of(model, twin);
+        EXPECT_NEAR(first.mass, 0.5 * 0.2 + 0.5 * 0.35, 1e-6) << "mass at the seam counts once";
+        const double linear = length(minus(last.linear, first.linear)) / first.mass,
+                     angular = length(minus(last.angular, first.angular)) / first.mass;
+        std::printf("[ measured ] %s: momentum changes by %.1e, angular by %.1e of mass times 1 m/s\n",
+                    std::string(named(method).name).c_str(), linear, angular);
+        EXPECT_LT(linear, 2e-6);
+        EXPECT_LT(angular, 5e-3);
+    }
 }
 
 }  // namespace drape::test
