@@ -15,6 +15,8 @@ layout(location = 2) out vec2 material;  // metres along columns, rows of the un
 layout(location = 3) out vec2 hidden;    // share of the surroundings that folds hide, of the front and the back
 layout(location = lit_location) flat out LitConstants constants;
 layout(location = look_location) flat out ClothLook look;
+layout(constant_id = 8) const bool has_panels = false;  // some cloth has an outline
+layout(set = 0, binding = 7, std430) readonly buffer PanelPlaces { vec2 panel_places[]; };  // as material
 #include "include/cloth_vertex.h"
 
 /// Returns the sine of the angle at which another particle stands above the surface, or 2, which is no sine, beyond the
@@ -49,9 +51,13 @@ void main() {
         if (is_cut_vertex(index)) particle = cut_vertex(index).particles.x;
     ivec2 texel = particle_texel(particle);
     surface_normal = imageLoad(normal, texel).xyz;
-    material = vec2(texel) / (vec2(push.grid.xy) - 1.0) * push.size.xy;
+    vec2 on_grid = vec2(texel) / (vec2(push.grid.xy) - 1.0) * push.size.xy;
+    material = on_grid;
     if (cut)
         if (is_cut_vertex(index)) material = cut_vertex(index).material.xy;
+    // The rim of an outline lies where its particles were moved, and what is cut beside it moves along.
+    if (has_panels)
+        if (push.fabric.w >= 0.0) material += panel_places[uint(push.fabric.w) + particle] - on_grid;
     hidden = hidden_by_folds(texel, particle_position(particle), surface_normal);
     gl_Position = clip_position(world);
     gl_Position.z = depth_of_thickness(world, push.size.w, gl_Position.w);

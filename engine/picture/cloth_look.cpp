@@ -23,7 +23,7 @@ glsl::uint pattern_number(Pattern pattern) {
 
 }  // namespace
 
-glsl::ClothPush cloth_push(const RasterCloth& cloth, const glsl::uvec4& texture) {
+glsl::ClothPush cloth_push(const RasterCloth& cloth, const glsl::uvec4& texture, float first_place) {
     const Appearance& look = cloth.appearance;
     const auto u = static_cast<float>(cloth.size_u);
     const auto v = static_cast<float>(cloth.size_v);
@@ -37,7 +37,7 @@ glsl::ClothPush cloth_push(const RasterCloth& cloth, const glsl::uvec4& texture)
             linear_color(back_of(look)),
             second,
             {static_cast<float>(std::pow(look.roughness, 4)), static_cast<float>(look.weave),
-             static_cast<float>(look.hem), 0},
+             static_cast<float>(look.hem), first_place},
             texture};
 }
 
@@ -76,6 +76,11 @@ ClothShaders cloth_shaders(View view) {
             break;
     }
     return {"cloth.vert", "cloth.frag", true};
+}
+
+const vulkan::GraphicsPipeline& ClothPipelines::of(const RasterCloth& cloth) const {
+    if (cloth.cut_vertices.valid()) return *cut;
+    return cloth.spring_shares.valid() && masked ? *masked : *whole;
 }
 
 std::uint32_t strain_number(View view) {

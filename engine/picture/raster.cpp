@@ -12,7 +12,6 @@
 #include "solver/kernel_choice.h"
 #include "vulkan/api.h"
 #include "vulkan/resources.h"
-#include "world/body_pose.h"
 
 namespace drape {
 
@@ -26,6 +25,7 @@ struct RasterPass::Targets {
     Handle meshes;       ///< invalid where no mesh is
     Handle heat_colors;  ///< invalid where the view is no heat map
     Handle textures;     ///< invalid where none is shown
+    Handle panels;       ///< invalid where no cloth has an outline
     Handle body_tiles, tiles;
     Handle depth;
     Handle drawn, light;  ///< radiance as it is drawn, and as it is encoded: the same, unless samples are resolved
@@ -60,11 +60,6 @@ std::string ground_shade_skip_reason(bool has_floor, const SceneDescription& sce
 
 }  // namespace
 
-const vulkan::GraphicsPipeline& RasterPass::ClothPipelines::of(const RasterCloth& cloth) const {
-    if (cloth.cut_vertices.valid()) return *cut;
-    return cloth.spring_shares.valid() && masked ? *masked : *whole;
-}
-
 RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& scene, std::uint32_t width,
                        std::uint32_t height, std::uint32_t samples, const RasterOptions& options)
     : width_(width),
@@ -73,22 +68,21 @@ RasterPass::RasterPass(const vulkan::Device& device, const SceneDescription& sce
       tiles_(width, height),
       frame_view_(scene, {picture_camera(scene, width, height), scene_extent(scene), width, height, options.shift}),
       resolves_(samples > 1 && !device.capabilities().samples_in_shaders),
-      bodies_{scene.colliders, fixtures(scene), mesh_corners(scene.colliders, 0),
-              std::ranges::any_of(scene.colliders, &Collider::deforms)},
-      shadow_skip_reason_(shadow_skip_reason(scene, options)),
+      bodies_(scene, frame_view_.floor()),
       view_(options.view.kind),
+      surfaces_{{}, PanelPlaces(view_, scene.cloths)},
       scale_(strain_scale(options.view, scene)),
       pipelines_{.compute = Pipelines(device)} {
     if (samples != 1 && samples != 4) throw vulkan::VulkanError("raster: samples must be 1 or 4");
     const std::optional<std::size_t> floor = frame_view_.floor();
-    if (shows_textures(view_, scene.cloths)) textures_.emplace(scene.cloths);
-    bodies_.has_alpha = scene.image.alpha;
-    bodies_.has_floor = floor && !bodies_.has_alpha;
-    if (floor) bodies_.colliders.erase(bodies_.colliders.begin() + static_cast<std::ptrdiff_t>(*floor));
-    bodies_.shade_skip_reason = ground_shade_skip_reason(bodies_.has_floor, scene, options);
-    if (bodies_.shade_skip_reason.empty())
-        bodies_.shade.emplace(pipelines_.compute, ground_map(scene.colliders[*floor], frame_view_.extent()),
-                              bodies_.colliders, options.cut);
+    if (shows_textures(view_, scene.cloths)) surfaces_.textures.emplace(scene.cloths);
+    around_.shadow_skip_reason = shadow_skip_reason(scene, options);
+    around_.has_alpha = scene.image.alpha;
+    around_.has_floor = floor && !around_.has_alpha;
+    around_.shade_skip_reason = ground_shade_skip_reason(around_.has_floor, scene, options);
+    if (around_.shade_skip_reason.empty())
+        around_.shade.emplace(pipelines_.compute, ground_map(scene.colliders[*floor], frame_view_.extent()),
+                              bodies_.colliders(), options.cut);
     make_pipelines(device, scene, options);
     make_compute_pipelines(options.cut);
 }
@@ -104,6 +98,7 @@ void RasterPass::make_cloth_pipelines(const vulkan::Device& device, const SceneD
     if (strain) state.constants = {{"shown", strain_number(view_)}};
     const auto looks = look_constants(view_, scene.cloths);
     state.constants.insert(state.constants.end(), looks.begin(), looks.end());
+    if (!surfaces_.panels.empty()) state.constants.push_back({"has_panels", 1});
     const auto make = [&](const char* name, vulkan::GraphicsState of,
                           std::initializer_list<vulkan::SpecializationConstant> more = {}) {
         of.constants.insert(of.constants.end(), more);
@@ -141,17 +136,12 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
     if (!scene.cloths.empty()) make_cloth_pipelines(device, scene, options, state, shadow_state);
     state.vertex = {"collider.vert"}, state.fragment = {"collider.frag"};
     shadow_state.vertex = {"shadow_collider.vert"};
-    for (const ColliderDraw& range : collider_draws(drawn_bodies(0), columns_in_picture(scene))) {
-        shadow_state.constants = {{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
-        if (range.has_corners)
-            shadow_state.constants.emplace_back("is_mesh", 1u);
-        else
-            shadow_state.constants.emplace_back("round_columns", range.round_columns);
-        state.constants = shadow_state.constants;
+    const double end = scene.time.frame_count / scene.time.fps;
+    for (const ColliderDraw& range : collider_draws(bodies_.at(0), bodies_.columns(frame_view_, end, height_))) {
+        state.constants = shadow_state.constants = body_constants(range);
         state.constants.insert(state.constants.end(), lit.begin(), lit.end());
-        // A bounded body is closed: its inner side is not visible from outside. The y axis of the shadow map points up,
-        // so there the outer side turns the other way.
-        state.cull = range.casts_shadow && range.closed ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
+        state.cull = body_cull(range);
+        // The y axis of the shadow map points up, so there the outer side turns the other way.
         shadow_state.cull = range.closed ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
         pipelines_.draws.push_back(
             {range, std::make_unique<vulkan::GraphicsPipeline>(device, "raster collider", state)});
@@ -163,10 +153,10 @@ void RasterPass::make_pipelines(const vulkan::Device& device, const SceneDescrip
 
 void RasterPass::make_compute_pipelines(bool cut) {
     pipelines_.encoding = &pipelines_.compute.get("encode.comp", [this](std::string_view name) {
-        if (name == "has_floor") return std::uint32_t{bodies_.has_floor};
-        if (name == "has_alpha") return std::uint32_t{bodies_.has_alpha};
-        if (name == "has_ground_shade") return std::uint32_t{bodies_.shade.has_value()};
-        if (name == "shadowed") return std::uint32_t{casts_shadow() && bodies_.has_floor};
+        if (name == "has_floor") return std::uint32_t{around_.has_floor};
+        if (name == "has_alpha") return std::uint32_t{around_.has_alpha};
+        if (name == "has_ground_shade") return std::uint32_t{around_.shade.has_value()};
+        if (name == "shadowed") return std::uint32_t{casts_shadow() && around_.has_floor};
         if (name == "sampled") return std::uint32_t{is_sampled()};
         return name == "strip_length" ? pipelines_.compute.strip_length() : tiles_.constant(name);
     });
@@ -184,40 +174,23 @@ void RasterPass::make_compute_pipelines(bool cut) {
     pipelines_.shadow_rows_invocations = side * side / texels_each;
 }
 
-std::vector<Collider> RasterPass::drawn_bodies(double time) const {
-    std::vector<Collider> bodies = bodies_.colliders;
-    for (const Fixture& fixture : bodies_.fixtures) bodies.push_back(posed(fixture, time));
-    return bodies;
-}
-
-/// Returns the columns for the largest bodies of each kind, examined at this number of times.
-RoundColumns RasterPass::columns_in_picture(const SceneDescription& scene) const {
-    constexpr int moments = 64;
-    const double end = scene.time.frame_count / scene.time.fps;
-    RoundColumns columns{};
-    for (int moment = 0; moment <= moments; ++moment)
-        for (const double time = end * moment / moments; const Collider& body : drawn_bodies(time)) {
-            std::uint32_t& most = columns[static_cast<std::size_t>(body.kind())];
-            most = std::max(most, round_columns(radius_in_pixels(body, time, frame_view_.camera_at(time), height_)));
-        }
-    return columns;
-}
-
 RasterPass::Targets RasterPass::declare(graph::Graph& graph) const {
     Targets targets;
     targets.frame = graph.buffer<glsl::FrameConstants>(frame_name, 1, graph::Lifetime::host_input);
-    if (const std::size_t count = drawn_bodies(0).size(); count > 0)
+    if (const std::size_t count = bodies_.count(); count > 0)
         targets.colliders = graph.buffer<glsl::ColliderInstance>(colliders_name, count, graph::Lifetime::host_input);
-    if (!bodies_.mesh_corners.empty())
+    if (!bodies_.corners().empty())
         targets.meshes =
-            graph.buffer<glsl::MeshCorner>(meshes_name, bodies_.mesh_corners.size(),
-                                           bodies_.deforms ? graph::Lifetime::host_input : graph::Lifetime::constant);
+            graph.buffer<glsl::MeshCorner>(meshes_name, bodies_.corners().size(),
+                                           bodies_.deform() ? graph::Lifetime::host_input : graph::Lifetime::constant);
     if (scale_)
         targets.heat_colors =
             graph.buffer<glsl::vec4>(heat_colors_name, glsl::heat_color_count, graph::Lifetime::host_input);
-    if (textures_)
+    if (surfaces_.textures)
         targets.textures =
-            graph.buffer<glsl::uint>(textures_name, textures_->halves().size(), graph::Lifetime::constant);
+            graph.buffer<glsl::uint>(textures_name, surfaces_.textures->halves().size(), graph::Lifetime::constant);
+    if (const std::size_t count = surfaces_.panels.all().size(); count > 0)
+        targets.panels = graph.buffer<glsl::vec2>(panels_name, count, graph::Lifetime::constant);
     targets.body_tiles = graph.buffer<glsl::uint>(body_tiles_name, tiles_.count(), graph::Lifetime::host_input);
     targets.tiles = graph.buffer<glsl::uint>(tiles_name, tiles_.count(), graph::Lifetime::transient);
     const auto samples = samples_ == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
@@ -242,12 +215,12 @@ Handle RasterPass::add(graph::Graph& graph, std::span<const RasterCloth> cloths)
     if (casts_shadow()) {
         add_shadow(graph, targets, kept);
     } else {
-        graph.skip("shadow", shadow_skip_reason_);
+        graph.skip("shadow", around_.shadow_skip_reason);
     }
-    if (bodies_.shade) {
-        targets.ground_shade = bodies_.shade->add(graph, cloths);
+    if (around_.shade) {
+        targets.ground_shade = around_.shade->add(graph, cloths);
     } else {
-        graph.skip("ground shade", bodies_.shade_skip_reason);
+        graph.skip("ground shade", around_.shade_skip_reason);
     }
     add_tiles(graph, targets, kept);
     add_raster(graph, targets, kept);
@@ -267,7 +240,7 @@ void RasterPass::add_shadow(graph::Graph& graph, Targets& targets, const std::ve
                 setup.read(cloth.indices, Access::index_read);
                 if (cloth.cut_vertices.valid()) setup.read(cloth.cut_vertices, Access::vertex_read);
             }
-            attachments->cleared = true;
+            attachments->cleared = VkClearColorValue{.float32 = {1, 1, 1, 1}};
             attachments->color = targets.shadow_map = setup.write(targets.shadow_map, Access::color_write);
             attachments->depth = setup.write(targets.shadow_depth, Access::depth_write);
         },
@@ -341,6 +314,7 @@ void RasterPass::add_raster(graph::Graph& graph, Targets& targets, const std::ve
             if (casts_shadow()) setup.read(targets.shadow_rows, Access::fragment_read);
             if (scale_) setup.read(targets.heat_colors, Access::fragment_read);
             if (targets.textures.valid()) setup.read(targets.textures, Access::fragment_read);
+            if (targets.panels.valid()) setup.read(targets.panels, Access::vertex_read);
             for (const RasterCloth& cloth : cloths) {
                 setup.read(cloth.position, Access::vertex_read);
                 setup.read(cloth.normal, Access::vertex_read);
@@ -369,17 +343,20 @@ void RasterPass::draw_picture(graph::PassContext& context, const Targets& target
     std::vector<graph::Binding> shared{{"frame", targets.frame}};
     if (casts_shadow()) shared.push_back({"shadow_rows", targets.shadow_rows});
     const bool lit = cloth_shaders(view_).lit;
-    for (const RasterCloth& cloth : cloths) {
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        const RasterCloth& cloth = cloths[k];
         const vulkan::GraphicsPipeline& pipeline = pipelines_.cloth.of(cloth);
         std::vector<graph::Binding> bound = lit ? shared : std::vector<graph::Binding>{{"frame", targets.frame}};
         bound.insert(bound.end(), {{"position", cloth.position}, {"normal", cloth.normal}});
         if (cloth.cut_vertices.valid()) bound.push_back({"cut_vertices", cloth.cut_vertices});
         if (scale_) bound.push_back({"heat_colors", targets.heat_colors});
-        if (textures_) bound.push_back({"texels", targets.textures});
+        if (surfaces_.textures) bound.push_back({"texels", targets.textures});
+        if (targets.panels.valid()) bound.push_back({"panel_places", targets.panels});
         if (scale_ && cloth.spring_shares.valid()) bound.push_back({"spring_shares", cloth.spring_shares});
         context.bind(pipeline, bound);
         if (scale_) context.push(pipeline, strain_push(cloth, *scale_));
-        if (!scale_) context.push(pipeline, cloth_push(cloth, textures_ ? textures_->place(cloth) : glsl::uvec4{}));
+        const glsl::uvec4 texture = surfaces_.textures ? surfaces_.textures->place(cloth) : glsl::uvec4{};
+        if (!scale_) context.push(pipeline, cloth_push(cloth, texture, surfaces_.panels.first(k)));
         draw_cloth(context, cloth.indices, cloth.index_count);
     }
     draw_bodies(context, targets, pipelines_.draws, shared);
@@ -397,9 +374,12 @@ void RasterPass::draw_bodies(graph::PassContext& context, const Targets& targets
 }
 
 void RasterPass::upload(const graph::ResourcePool& pool) const {
-    if (!bodies_.mesh_corners.empty() && !bodies_.deforms)
-        vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(bodies_.mesh_corners)));
-    if (textures_) vulkan::upload(pool.device(), pool.buffer(textures_name), std::as_bytes(textures_->halves()));
+    if (!bodies_.corners().empty() && !bodies_.deform())
+        vulkan::upload(pool.device(), pool.buffer(meshes_name), std::as_bytes(std::span(bodies_.corners())));
+    if (!surfaces_.panels.empty())
+        vulkan::upload(pool.device(), pool.buffer(panels_name), std::as_bytes(surfaces_.panels.all()));
+    if (surfaces_.textures)
+        vulkan::upload(pool.device(), pool.buffer(textures_name), std::as_bytes(surfaces_.textures->halves()));
 }
 
 Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) const {
@@ -411,7 +391,7 @@ Handle RasterPass::add_encoding(graph::Graph& graph, const Targets& targets) con
             setup.read(targets.frame, Access::compute_read, "frame");
             setup.read(targets.light, Access::compute_read, is_sampled() ? "samples" : "light");
             setup.read(targets.tiles, Access::compute_read, "tiles");
-            if (casts_shadow() && bodies_.has_floor)
+            if (casts_shadow() && around_.has_floor)
                 setup.read(targets.shadow_rows, Access::compute_read, "shadow_rows");
             if (targets.ground_shade.valid()) setup.read(targets.ground_shade, Access::compute_read, "ground_shade");
             picture = setup.write(picture, Access::compute_write, "pixels");
@@ -429,13 +409,8 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     const auto write = [&](const char* name, std::span<const std::byte> bytes) {
         std::memcpy(pool.buffer(name, slot).mapped().data(), bytes.data(), bytes.size());
     };
-    std::vector<Collider> bodies = drawn_bodies(time);
-    // The floor is one of the planes, which all come before whatever has a mass.
-    for (const BodyState& body : moved) {
-        Collider& drawn = bodies[body.collider - (bodies_.has_floor ? 1 : 0)];
-        drawn = placed(drawn, body);
-    }
-    if (bodies_.shade) bodies_.shade->write(pool, slot, std::span(bodies).first(bodies_.colliders.size()), time);
+    const std::vector<Collider> bodies = bodies_.at(time, moved);
+    if (around_.shade) around_.shade->write(pool, slot, std::span(bodies).first(bodies_.colliders().size()), time);
     const std::vector<glsl::ColliderInstance> instances =
         collider_instances(bodies, frame_view_.plane_extent_at(time), time);
     const std::vector<std::uint32_t> marks = tiles_.marks(bodies, time, frame_view_.camera_at(time));
@@ -443,8 +418,8 @@ void RasterPass::write_frame(const graph::ResourcePool& pool, std::uint32_t slot
     write(body_tiles_name, std::as_bytes(std::span(marks)));
     write(frame_name, std::as_bytes(std::span(&constants, 1)));
     if (!instances.empty()) write(colliders_name, std::as_bytes(std::span(instances)));
-    if (bodies_.deforms) {
-        const std::vector<glsl::MeshCorner> corners = mesh_corners(bodies_.colliders, time);
+    if (bodies_.deform()) {
+        const std::vector<glsl::MeshCorner> corners = bodies_.corners_at(time);
         write(meshes_name, std::as_bytes(std::span(corners)));
     }
     if (!scale_) return;

@@ -14,9 +14,11 @@
 #include "drape/scene.h"
 #include "drape/view.h"
 #include "graph/executor.h"
+#include "picture/cloth_look.h"
 #include "picture/collider_mesh.h"
-#include "picture/fixtures.h"
+#include "picture/drawn_bodies.h"
 #include "picture/ground_shade.h"
+#include "picture/panel_places.h"
 #include "picture/picture_tiles.h"
 #include "picture/raster_cloth.h"
 #include "picture/raster_frame.h"
@@ -69,7 +71,7 @@ class RasterPass {
 
     /// Returns whether the encoding pass reads the samples themselves instead of a resolved image.
     bool is_sampled() const { return samples_ > 1 && !resolves_; }
-    bool casts_shadow() const { return shadow_skip_reason_.empty(); }
+    bool casts_shadow() const { return around_.shadow_skip_reason.empty(); }
     std::uint64_t readback_byte_count() const;
 
     static constexpr const char* readback_name = "color/readback";
@@ -80,6 +82,7 @@ class RasterPass {
     static constexpr const char* body_tiles_name = "raster/tiles of bodies";
     static constexpr const char* tiles_name = "raster/tiles";
     static constexpr const char* textures_name = "raster/textures";
+    static constexpr const char* panels_name = "raster/places on panels";
     static constexpr const char* light_name = "light";  ///< radiance
     static constexpr const char* resolved_name = "light/resolved";
     static constexpr const char* depth_name = "depth";
@@ -93,12 +96,6 @@ class RasterPass {
         std::unique_ptr<vulkan::GraphicsPipeline> pipeline;
     };
     struct Targets;
-
-    /// The pipelines for cloths, chosen by what a cloth has.
-    struct ClothPipelines {
-        std::unique_ptr<vulkan::GraphicsPipeline> whole, masked, cut;
-        const vulkan::GraphicsPipeline& of(const RasterCloth& cloth) const;
-    };
 
     void make_cloth_pipelines(const vulkan::Device& device, const SceneDescription& scene, const RasterOptions& options,
                               vulkan::GraphicsState state, vulkan::GraphicsState shadow_state);
@@ -114,19 +111,18 @@ class RasterPass {
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
 
-    RoundColumns columns_in_picture(const SceneDescription& scene) const;
-    /// Returns the scene's colliders and then its fixtures, at `time` (s).
-    std::vector<Collider> drawn_bodies(double time) const;
-
-    struct Bodies {
-        std::vector<Collider> colliders;
-        std::vector<Fixture> fixtures;
-        std::vector<glsl::MeshCorner> mesh_corners;  ///< where nothing deforms; else those of the start
-        bool deforms;                                ///< some mesh does: its corners are told for every frame
-        bool has_floor = false;  ///< a plane that is not among the colliders here: the encoding pass draws it
-        bool has_alpha = false;  ///< neither that nor the backdrop is drawn
+    /// What is drawn behind cloths and bodies, and what falls on them.
+    struct Surroundings {
+        bool has_floor = false;              ///< a plane that is not among the bodies: the encoding pass draws it
+        bool has_alpha = false;              ///< neither that nor the backdrop is drawn
         std::optional<GroundShade> shade{};  ///< on the floor
         std::string shade_skip_reason{};     ///< why there is none
+        std::string shadow_skip_reason{};    ///< empty: there is a shadow
+    };
+    /// What the cloths show.
+    struct Surfaces {
+        std::optional<Textures> textures;
+        PanelPlaces panels;
     };
     struct AllPipelines {
         Pipelines compute;
@@ -144,10 +140,10 @@ class RasterPass {
     PictureTiles tiles_;
     FrameView frame_view_;
     bool resolves_;  ///< the samples, where the encoding pass cannot read them
-    Bodies bodies_;
-    std::optional<Textures> textures_;  ///< what the cloths show, if anything
-    std::string shadow_skip_reason_;    ///< empty: there is a shadow
+    DrawnBodies bodies_;
+    Surroundings around_;
     View view_;
+    Surfaces surfaces_;
     std::optional<StrainScale> scale_;  ///< set for a heat map
     AllPipelines pipelines_;
 };

@@ -20,8 +20,9 @@ VkRenderingAttachmentInfo attachment(const graph::PassContext& context, graph::H
 void begin_rendering(const graph::PassContext& context, const RasterAttachments& attachments) {
     const vulkan::Image& target = context.image(attachments.color);
     const bool resolved = attachments.resolve.valid();
-    VkRenderingAttachmentInfo color = attachment(context, attachments.color, attachments.cleared, !resolved);
-    color.clearValue.color = {{1, 1, 1, 1}};
+    VkRenderingAttachmentInfo color =
+        attachment(context, attachments.color, attachments.cleared.has_value(), !resolved);
+    if (attachments.cleared) color.clearValue.color = *attachments.cleared;
     if (resolved) {
         color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
         color.resolveImageView = context.image(attachments.resolve).view();
@@ -29,7 +30,7 @@ void begin_rendering(const graph::PassContext& context, const RasterAttachments&
     }
     VkRenderingAttachmentInfo depth{};
     if (attachments.depth.valid()) {
-        depth = attachment(context, attachments.depth, attachments.cleared, false);
+        depth = attachment(context, attachments.depth, attachments.cleared.has_value(), false);
         depth.clearValue.depthStencil = {1.0f, 0};
     }
     const VkExtent2D extent{target.description().width, target.description().height};
@@ -54,6 +55,20 @@ void draw_cloth(graph::PassContext& context, graph::Handle indices, std::uint32_
 
 void draw_colliders(const graph::PassContext& context, const ColliderDraw& range) {
     vkCmdDraw(context.commands(), range.vertex_count, range.instance_count, range.first_vertex, range.first_instance);
+}
+
+std::vector<vulkan::SpecializationConstant> body_constants(const ColliderDraw& range) {
+    std::vector<vulkan::SpecializationConstant> constants{{"collider_kind", static_cast<std::uint32_t>(range.kind)}};
+    if (range.has_corners)
+        constants.emplace_back("is_mesh", 1u);
+    else
+        constants.emplace_back("round_columns", range.round_columns);
+    return constants;
+}
+
+VkCullModeFlags body_cull(const ColliderDraw& range) {
+    // A bounded body is closed: its inner side is not visible from outside.
+    return range.casts_shadow && range.closed ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
 }
 
 }  // namespace drape

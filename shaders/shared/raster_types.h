@@ -62,7 +62,8 @@ struct ClothPush {
     vec4 front;  // colour of the side the normals point to
     vec4 back;
     vec4 second;    // the pattern's other colour, on both sides; w: sheen
-    vec4 fabric;    // x: spread (include/shading.h); y: metres from thread to thread, 0: none; z: width of the hem, m
+    vec4 fabric;    // x: spread (include/shading.h); y: metres from thread to thread, 0: none; z: width of the hem, m;
+                    // w: its first particle in the list of places on panels, below 0: its particles are on the grid
     uvec4 texture;  // x: its first texel; y, z: width and height, powers of two, 0: none; w: 1 where the back shows it
 };
 

@@ -114,6 +114,37 @@ std::shared_ptr<TextureImage> checker_image(std::uint32_t columns, std::uint32_t
     return image;
 }
 
+/// A sheet, and one whose rim was moved to an outline within it, show the same where both are.
+TEST_F(Raster, PatternsOfAnOutlineLieWhereItsParticlesDo) {
+    const SceneDescription scene = dark_room();
+    constexpr std::uint32_t particles = 5;
+    DrawnCloth whole = flat_cloth({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, red, red, particles);
+    whole.appearance.pattern = Pattern::stripes;
+    whole.appearance.second = blue;
+    whole.appearance.sheen = 0;
+    DrawnCloth outlined = whole;
+    for (std::uint32_t row = 0; row < particles; ++row)
+        for (std::uint32_t column = 0; column < particles; ++column) {
+            const bool rim = column == 0 || column + 1 == particles;
+            glsl::vec4& at = outlined.positions[row * particles + column];
+            if (rim) at.x *= row % 2 == 0 ? 0.8f : 0.9f;
+            outlined.panel.push_back({static_cast<double>(at.x) + 0.5, static_cast<double>(at.y) + 0.5});
+        }
+    DrawnCloth by_grid = outlined;
+    by_grid.panel.clear();
+    const Picture expected = draw(scene, {whole}), found = draw(scene, {outlined}), other = draw(scene, {by_grid});
+    std::size_t compared = 0, unlike = 0;
+    for (double x = -0.39; x < 0.39; x += 0.004)
+        for (double y = -0.45; y < 0.45; y += 0.01) {
+            const PixelPosition at = pixel(scene, {x, y, 0});
+            const std::array<int, 3> a = expected.at(at), b = found.at(at), c = other.at(at);
+            for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 6) << x << ' ' << y;
+            ++compared;
+            unlike += std::abs(a[0] - c[0]) > 100 ? 1 : 0;
+        }
+    EXPECT_GT(unlike, compared / 100) << "the rim's move shows nothing";
+}
+
 TEST_F(Raster, TexturesSpanTheClothFromItsFirstRow) {
     SceneDescription scene = dark_room();
     DrawnCloth cloth = grey_square();

@@ -51,6 +51,7 @@ struct DrawnCloth {
     Appearance appearance;
     std::vector<glsl::vec4> positions, normals;
     std::vector<std::uint32_t> indices;
+    std::vector<std::array<double, 2>> panel = {};  ///< Cloth::panel
 };
 
 inline Vec3 linear(const Vec3& srgb) { return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])}; }
@@ -215,6 +216,7 @@ class Raster : public testing::Test {
         };
         cloth.size = {drawn.size_u, drawn.size_v};
         cloth.appearance = drawn.appearance;
+        cloth.panel = drawn.panel;
         cloth.placement = {at(0), unit(at(drawn.columns - 1) + -1.0 * at(0)),
                            unit(at(drawn.positions.size() - drawn.columns) + -1.0 * at(0))};
     }
