@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "results.h"
 
 namespace drape::bench {
@@ -13,10 +15,10 @@ using test::swing_result;
 const std::map<std::string, std::vector<Target>> swing_targets{
     {"swing", {{"stretch_error", 0.01}, {"position_rms", 1e-3}}}};
 
-const Soonest& found(const std::vector<Soonest>& all, const std::string& family, const std::string& metric) {
+const Soonest& found(const std::vector<Soonest>& all, std::string_view family, std::string_view metric) {
     for (const Soonest& s : all)
         if (s.family == family && s.metric == metric) return s;
-    throw std::runtime_error(family + " " + metric);
+    throw std::runtime_error(std::string(family) + " " + std::string(metric));
 }
 
 TEST(ClaimsTest, TheSoonestIsAMeasuredSettingAndNeverBetweenTwo) {

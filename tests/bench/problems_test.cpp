@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "bench/measure.h"
 #include "bench/problem.h"
@@ -13,10 +14,10 @@
 namespace drape::bench {
 namespace {
 
-const Problem& named(const std::vector<Problem>& problems, const std::string& name) {
+const Problem& named(const std::vector<Problem>& problems, std::string_view name) {
     for (const Problem& problem : problems)
         if (problem.name == name) return problem;
-    throw std::runtime_error("no problem " + name);
+    throw std::runtime_error("no problem " + std::string(name));
 }
 
 TEST(ProblemsTest, EveryCaseHasANameOfItsOwnAndAModel) {
