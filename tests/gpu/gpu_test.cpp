@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <vector>
+
+#include "vulkan/api.h"
+#include "vulkan/error.h"
 
 #ifdef __SANITIZE_ADDRESS__
 extern "C" {
@@ -65,6 +70,17 @@ Gpu& gpu() {
         static_cast<void>(listening);
     }
     return *the_gpu;
+}
+
+bool layer_sees_shared_memory() {
+    std::uint32_t count = 0;
+    vulkan::check(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
+    std::vector<VkLayerProperties> layers(count);
+    vulkan::check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
+    return std::ranges::any_of(layers, [](const VkLayerProperties& layer) {
+        return std::strcmp(layer.layerName, "VK_LAYER_KHRONOS_validation") == 0 &&
+               layer.specVersion < VK_MAKE_API_VERSION(0, 1, 4, 0);
+    });
 }
 
 ExpectValidationMessages::ExpectValidationMessages() {

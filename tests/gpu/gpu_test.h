@@ -37,6 +37,10 @@ class Gpu {
 /// something during it, and the process fails when device objects are left at its end.
 Gpu& gpu();
 
+/// Whether the validation layer sees a hazard between a linear image and a buffer that share memory (docs/devices.md):
+/// where it does not, no message can be expected of one.
+bool layer_sees_shared_memory();
+
 /// While it lives the validation layer is expected to speak: the test fails when it does not, and does not fail because
 /// it does.
 class ExpectValidationMessages {

@@ -243,9 +243,12 @@ TEST(TwinLineTest, ExactSkipsChangeNoBit) {
 TEST(CanaryTest, AMissingBarrierBetweenLinePassesIsReported) {
     const SimulationModel model(free_lines());
     test::ExpectValidationMessages expected;
-    DeviceRun run(test::gpu().device, model, [](const graph::PlannedPass&, const graph::Barrier& barrier) {
-        return barrier.reason.find("line row") == std::string::npos;
-    });
+    DeviceRun run(
+        test::gpu().device, model,
+        [](const graph::PlannedPass&, const graph::Barrier& barrier) {
+            return barrier.reason.find("line row") == std::string::npos;
+        },
+        test::layer_sees_shared_memory() ? Kernels::automatic() : Kernels{Kernel::plain});
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }

@@ -202,7 +202,7 @@ TEST(CanaryTest, AMissingBarrierBetweenSpringPassesIsReported) {
         [](const graph::PlannedPass&, const graph::Barrier& barrier) {
             return barrier.reason.find("spring column odd") == std::string::npos;
         },
-        Kernels{Kernel::buffer_store});
+        Kernels{test::layer_sees_shared_memory() ? Kernel::buffer_store : Kernel::plain});
     run.run_frame(1);
     EXPECT_FALSE(expected.messages().empty());
 }
