@@ -158,6 +158,7 @@ TEST(Checkpoint, IsLeftWhereARunIsStoppedAndGoneWhenItIsDone) {
 
 /// Files that grow with the frames (arrays, journal) and others (pictures, meshes) meet the limit at different times.
 TEST(Checkpoint, AFileSizeLimitEndsTheRunWithNothingTornAndItGoesOn) {
+    if (driver_keeps_memory_in_files()) GTEST_SKIP() << "the limit ends the driver first";
     const SceneFolder folder(eventful_scene(30));
     const std::vector<std::string> arguments{"render", folder.scene(), "--export", "npy,npz,obj", "-q"};
     const auto into = [&](const std::string& out, std::vector<std::string> more) {

@@ -94,4 +94,12 @@ Outcome drape(std::vector<std::string> arguments, const StartOptions& options) {
     return Running(DRAPE_PROGRAM, std::move(arguments), options).wait();
 }
 
+bool driver_keeps_memory_in_files() {
+    static const bool keeps =
+        drape({"profile", DRAPE_SOURCE_DIR "/scenes/hanging_sheet.json", "--simulate", "--frames", "1"},
+              {.file_size_limit = 4096})
+            .code == 128 + SIGBUS;
+    return keeps;
+}
+
 }  // namespace drape

@@ -54,4 +54,8 @@ class Running {
 /// Runs `drape` with these arguments to its end.
 Outcome drape(std::vector<std::string> arguments, const StartOptions& options = {});
 
+/// Whether the driver keeps its memory in files, as lavapipe of Mesa 25 does: a limit on the size of files then ends
+/// every run by SIGBUS.
+bool driver_keeps_memory_in_files();
+
 }  // namespace drape

@@ -282,6 +282,7 @@ TEST_F(Sweep, GoesOnWhereItWasAndSaysWhatIsMissing) {
 
 /// The file size limit acts as a full disk does: it says nothing of the run.
 TEST_F(Sweep, AFileThatCannotBeWrittenEndsItAndItGoesOnWhenItCan) {
+    if (driver_keeps_memory_in_files()) GTEST_SKIP() << "the limit ends the driver first";
     write_text(folder / "spec.json", R"({"scene": "scene.json", "vary": {"/cloths/0/damping": {"grid": [0, 1]}}})");
     const Outcome stopped = drape({"sweep", "spec.json", "-o", "out", "--jobs", "1", "-q"},
                                   {.folder = folder.path(), .file_size_limit = 4096});
