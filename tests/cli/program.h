@@ -55,7 +55,7 @@ class Running {
 Outcome drape(std::vector<std::string> arguments, const StartOptions& options = {});
 
 /// Whether the driver keeps its memory in files, as lavapipe of Mesa 25 does: a limit on the size of files then ends
-/// every run by SIGBUS.
+/// every run by SIGXFSZ or, where that is ignored, by SIGBUS.
 bool driver_keeps_memory_in_files();
 
 }  // namespace drape
