@@ -24,7 +24,7 @@ using Bytes = std::vector<std::byte>;
 
 bool always(Context) { return true; }
 bool sums_impulses(Context c) { return drape::sums_impulses(c.model.scene); }
-bool splits_pins(Context c) { return drape::splits_pins(c.model.scene); }
+bool splits_pins(Context c) { return drape::splits_pins(c.model); }
 std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
 bool bears_bodies(Context c) { return has_bodies(c.model, index_of(c)); }
 bool strikes_bodies(Context c) { return body_count(c.model) > 0; }

@@ -109,44 +109,83 @@ Impulse given_by(const ForceSource& source, const SimulationModel& model, const 
             return sums.contact(glsl::impulse_first + source.number);
         case ForceCause::pins:
             return sums.at(first_pin_row(model.scene) + source.number);
+        case ForceCause::hands:
+            return {};
     }
     return {};
 }
 
-/// Returns by pin what share of a frame it holds its particles.
-double held_share(const SceneDescription& scene, const Pin& pin, std::uint32_t frame) {
+/// Returns the largest impulse, and the largest moment, that a source gave in a substep; nothing where only a frame's
+/// is known. `first_worst`: the first row of what the sums keep of that.
+std::optional<Impulse> worst_of(const ForceSource& source, const Impulses& sums, std::size_t first_worst) {
+    switch (source.cause) {
+        case ForceCause::air:
+            return sums.at(first_worst + glsl::impulse_air);
+        case ForceCause::loads:
+            return sums.at(first_worst + glsl::impulse_loads);
+        case ForceCause::other_cloths:
+            return sums.contact(first_worst + glsl::impulse_cloths);
+        case ForceCause::colliders:
+            return sums.contact(first_worst + glsl::impulse_first + source.number);
+        // Gravity is known anyway. Pins and hands bear the rest of a frame, and damping is found with that.
+        case ForceCause::gravity:
+        case ForceCause::pins:
+        case ForceCause::hands:
+        case ForceCause::damping:
+            return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// Returns for what share of a frame a pin or hand holds its particles.
+double held_share(const SceneDescription& scene, const DynamicPin& pin, std::uint32_t frame) {
+    if (pin.held == no_particles) return 0;
     return pin.release ? std::clamp(*pin.release * scene.time.fps - (frame - 1), 0.0, 1.0) : 1.0;
 }
 
-/// Returns the mass, kg, that each pin of a cloth holds, on average over a frame.
+/// Calls `take` with each particle of a cloth that is held in a frame, for what share of it, and by which of its pins;
+/// all hands together come after these.
+template <class Take>
+void for_each_held(const SimulationModel& model, std::size_t index, std::uint32_t frame, const Take& take) {
+    const ClothModel& cloth = model.cloths[index];
+    const std::size_t pins = model.scene.cloths[index].pins.size();
+    std::vector<double> shares(pins, 1);
+    for (const DynamicPin& pin : cloth.dynamic_pins) {
+        const double share = held_share(model.scene, pin, frame);
+        if (!pin.hand) shares[pin.number] = share;
+        for (std::uint32_t row = pin.held.first[1]; pin.hand && share > 0 && row <= pin.held.last[1]; ++row)
+            for (std::uint32_t column = pin.held.first[0]; column <= pin.held.last[0]; ++column)
+                take(cloth.grid.particle(column, row), share, pins);
+    }
+    const std::vector<glsl::uint> numbers = pin_numbers(model, index);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] > 0) take(i, shares[numbers[i] - 1], numbers[i] - 1);
+}
+
+/// Returns the mass, kg, that each pin of a cloth holds, on average over a frame, and then that of its hands.
 std::vector<double> held_masses(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
     const ClothModel& cloth = model.cloths[index];
-    const std::vector<Pin>& pins = model.scene.cloths[index].pins;
-    const std::vector<glsl::uint> numbers = pin_numbers(model, index);
-    std::vector<double> masses(pins.size());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (numbers[i] > 0 && cloth.free_weight[i] > 0)
-            masses[numbers[i] - 1] += cloth.inner_mass / double{cloth.free_weight[i]};
-    for (std::size_t pin = 0; pin < pins.size(); ++pin) masses[pin] *= held_share(model.scene, pins[pin], frame);
+    std::vector<double> masses(model.scene.cloths[index].pins.size() + 1);
+    for_each_held(model, index, frame, [&](std::size_t particle, double share, std::size_t by) {
+        if (cloth.free_weight[particle] > 0)
+            masses[by] += share * cloth.inner_mass / double{cloth.free_weight[particle]};
+    });
     return masses;
 }
 
-/// Returns what the forces of loads gave to what each pin of a cloth holds, N s.
+/// Returns what the forces of loads gave to what each of them holds, N s.
 std::vector<Vec3> held_pulls(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
     const ClothModel& cloth = model.cloths[index];
-    std::vector<Vec3> pulls(model.scene.cloths[index].pins.size()), each;
-    if (cloth.load_depth == 0 || pulls.empty()) return pulls;
+    std::vector<Vec3> pulls(model.scene.cloths[index].pins.size() + 1), each;
+    if (cloth.load_depth == 0) return pulls;
     for (const Load& load : model.scene.cloths[index].loads) each.push_back(pulled(model, load, frame));
-    const std::vector<glsl::uint> numbers = pin_numbers(model, index);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        for (std::size_t k = 0; k < cloth.load_depth && numbers[i] > 0; ++k) {
-            const glsl::vec4& share = cloth.loads[cloth.load_depth * i + k];
+    for_each_held(model, index, frame, [&](std::size_t particle, double held, std::size_t by) {
+        for (std::size_t k = 0; k < cloth.load_depth; ++k) {
+            const glsl::vec4& share = cloth.loads[cloth.load_depth * particle + k];
             if (share.x < 0) break;
-            Vec3& pull = pulls[numbers[i] - 1];
-            pull = plus(pull, times(double{share.y}, each[static_cast<std::size_t>(share.x)]));
+            pulls[by] = plus(pulls[by], times(held * double{share.y}, each[static_cast<std::size_t>(share.x)]));
         }
-    for (std::size_t pin = 0; pin < pulls.size(); ++pin)
-        pulls[pin] = times(held_share(model.scene, model.scene.cloths[index].pins[pin], frame), pulls[pin]);
+    });
     return pulls;
 }
 
@@ -155,7 +194,7 @@ struct Account {
     const std::vector<ForceSource>& sources;
     std::vector<Impulse> impulses{};
     Vec3 left{};                 ///< what they leave of the change of momentum
-    std::vector<double> held{};  ///< kg, by pin
+    std::vector<double> held{};  ///< kg, by pin, and by hands
 
     void add(const Impulse& impulse) {
         impulses.push_back({{}, impulse.moment});
@@ -165,9 +204,11 @@ struct Account {
         impulses[k].given = plus(impulses[k].given, more);
         left = minus(left, more);
     }
-    bool holds(const ForceSource& each) const { return each.cause == ForceCause::pins && held[each.number] > 0; }
-    /// Whether a source may have given what is left: pins, which also bear the motion and the air of what they hold;
-    /// without pins air, and what was felt of colliders and other cloths; where nothing else acts, damping.
+    static bool is_holder(ForceCause cause) { return cause == ForceCause::pins || cause == ForceCause::hands; }
+    bool holds(const ForceSource& each) const { return is_holder(each.cause) && held[each.number] > 0; }
+    /// Whether a source may have given what is left: hands, or else pins, which also bear the motion and the air of
+    /// what they hold, and beside hands what their springs pull; without these air, and what was felt of colliders and
+    /// other cloths; where nothing else acts, damping.
     bool may_take(std::size_t k) const {
         const auto any = [&](const auto& is) {
             for (std::size_t of = 0; of < sources.size(); ++of)
@@ -175,12 +216,14 @@ struct Account {
             return false;
         };
         const auto is_held = [&](std::size_t of) { return holds(sources[of]); };
+        const auto is_handled = [&](std::size_t of) { return is_held(of) && sources[of].cause == ForceCause::hands; };
         const auto acts = [&](std::size_t of) {
             const ForceCause cause = sources[of].cause;
             const bool touches = cause == ForceCause::colliders || cause == ForceCause::other_cloths;
             return cause == ForceCause::air || cause == ForceCause::loads ||
                    (touches && length(impulses[of].given) > 0);
         };
+        if (any(is_handled)) return is_handled(k);
         if (any(is_held)) return is_held(k);
         return any(acts) ? acts(k) : sources[k].cause == ForceCause::damping;
     }
@@ -212,6 +255,8 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
     if (is_held(cloth))
         for (std::size_t k = 0; k < scene.cloths[index].pins.size(); ++k)
             all.push_back({ForceCause::pins, k, fmt::format("pins_{}", k)});
+    if (std::ranges::any_of(cloth.dynamic_pins, [](const DynamicPin& pin) { return pin.hand.has_value(); }))
+        all.push_back({ForceCause::hands, scene.cloths[index].pins.size(), "hands"});
     add(scene.wind.blows() || model.options.air, ForceCause::air, "air");
     add(cloth.load_depth > 0, ForceCause::loads, "loads");
     add(cloth.damping > 0, ForceCause::damping, "damping");
@@ -231,8 +276,12 @@ std::uint32_t first_pin_row(const SceneDescription& scene) {
     return static_cast<std::uint32_t>(glsl::impulse_first + scene.colliders.size());
 }
 
-std::uint32_t impulse_row_count(const SceneDescription& scene) {
+std::uint32_t impulse_sum_count(const SceneDescription& scene) {
     return first_pin_row(scene) + static_cast<std::uint32_t>(most_pins(scene));
+}
+
+std::uint32_t impulse_row_count(const SceneDescription& scene) {
+    return impulse_sum_count(scene) * (scene.worst_forces ? glsl::impulse_tables : 1);
 }
 
 float impulse_units(const SimulationModel& model) {
@@ -240,7 +289,9 @@ float impulse_units(const SimulationModel& model) {
     return static_cast<float>(0x1p20 / (substep * substep));
 }
 
-bool splits_pins(const SceneDescription& scene) { return scene.forces && most_pins(scene) > 1; }
+bool splits_pins(const SimulationModel& model) {
+    return model.scene.forces && most_pins(model.scene) > (model.options.hands.empty() ? 1 : 0);
+}
 
 std::vector<glsl::uint> pin_numbers(const SimulationModel& model, std::size_t index) {
     const ClothModel& cloth = model.cloths[index];
@@ -280,7 +331,7 @@ std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t
     Account account{sources, {}, sums.change(), held_masses(model, index, frame)};
     for (const ForceSource& source : sources) {
         account.add(given_by(source, model, cloth, sums, mass, fallen));
-        if (source.cause == ForceCause::pins)
+        if (Account::is_holder(source.cause))
             account.give(account.impulses.size() - 1,
                          times(-1, plus(times(account.held[source.number], fallen), pulls[source.number])));
     }
@@ -291,6 +342,11 @@ std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t
         const Impulse& own = account.impulses[k];
         forces.push_back({sources[k].name, times(per_second, own.given), std::nullopt});
         if (sources[k].cause == ForceCause::colliders) forces.back().moment = times(per_second, own.moment);
+        if (!model.scene.worst_forces) continue;
+        const std::optional<Impulse> worst = worst_of(sources[k], sums, 2 * impulse_sum_count(model.scene));
+        if (!worst) continue;
+        forces.back().worst = times(1 / cloth.substep_length, worst->given);
+        if (forces.back().moment) forces.back().worst_moment = times(1 / cloth.substep_length, worst->moment);
     }
     return forces;
 }

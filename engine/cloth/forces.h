@@ -13,17 +13,17 @@
 
 namespace drape {
 
-enum class ForceCause : std::uint8_t { gravity, pins, air, loads, damping, colliders, other_cloths };
+enum class ForceCause : std::uint8_t { gravity, pins, hands, air, loads, damping, colliders, other_cloths };
 
 /// In the order of ForceCause, as manifests name them.
-inline constexpr const char* force_causes[] = {"gravity", "pins",      "air",         "loads",
-                                               "damping", "colliders", "other cloths"};
+inline constexpr const char* force_causes[] = {"gravity", "pins",    "hands",     "air",
+                                               "loads",   "damping", "colliders", "other cloths"};
 inline const char* name_of(ForceCause cause) { return force_causes[static_cast<std::size_t>(cause)]; }
 
 /// One thing that gives a cloth momentum.
 struct ForceSource {
     ForceCause cause;
-    std::size_t number;  ///< of the cloth's pins, or of the model's colliders
+    std::size_t number;  ///< of the cloth's pins and, after these, its hands, or of the model's colliders
     std::string name;    ///< "pins_0", "collider_2_sphere": in the names of the frames' numbers
 };
 
@@ -33,6 +33,8 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
 /// Returns whether a scene's impulses are summed: it wants forces, or has bodies, which get the opposite.
 bool sums_impulses(const SceneDescription& scene);
 /// Returns the number of rows of each cloth's sums: the same for all cloths of a scene, since some share images.
+std::uint32_t impulse_sum_count(const SceneDescription& scene);
+/// Returns the number of these rows and of those that keep the worst of each.
 std::uint32_t impulse_row_count(const SceneDescription& scene);
 /// Returns the row of a cloth's first pin.
 std::uint32_t first_pin_row(const SceneDescription& scene);
@@ -40,8 +42,8 @@ std::uint32_t first_pin_row(const SceneDescription& scene);
 /// velocity that 1 m/s^2 makes in a substep. So 2^29 m/s^2 of a particle fit, and gravity's own rounding is 1e-7.
 float impulse_units(const SimulationModel& model);
 
-/// Returns whether some cloth has several pins, so that what holds it has to be split among them.
-bool splits_pins(const SceneDescription& scene);
+/// Returns whether several pins may hold a cloth, or pins and hands, so that what holds it has to be split among them.
+bool splits_pins(const SimulationModel& model);
 /// Returns for each particle 1 and the number of the pin that holds it, or 0.
 std::vector<glsl::uint> pin_numbers(const SimulationModel& model, std::size_t cloth);
 /// Returns the constants of the step that adds the momentum; `sign`: -1 as a frame begins, 1 as it ends.

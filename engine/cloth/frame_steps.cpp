@@ -313,6 +313,14 @@ void add_strikes(const SimulationModel& model, std::uint32_t substep, std::vecto
             {StepKind::body_strike, cloth, substep, 0, body_strike_push(model, model.cloths[cloth], substep)});
 }
 
+/// Looks for the largest impulse, after all of a substep has added its own.
+void add_worst_impulses(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps) {
+    if (!model.scene.worst_forces) return;
+    const glsl::WorstImpulsesPush push{static_cast<int>(impulse_sum_count(model.scene))};
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        steps.push_back({StepKind::worst_impulses, cloth, substep, 0, push});
+}
+
 }  // namespace
 
 std::vector<Step> frame_steps(const SimulationModel& model) {
@@ -329,6 +337,7 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
                 Substep(model, cloth, substep, steps).add();
         if (model.self_contact) ContactSteps(model, substep, steps).add();
         add_strikes(model, substep, steps);
+        add_worst_impulses(model, substep, steps);
     }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
     add_momenta(model, 1, steps);

@@ -33,6 +33,14 @@ std::string kinds(const std::vector<Collider>& colliders) {
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
 
+std::string controls(const SceneDescription& scene) {
+    if (!scene.actions) return "none";
+    std::string text = fmt::format("hands of cloths [{}]", fmt::join(scene.actions->controls.hands, " "));
+    for (const auto& control : control_spellings)
+        if (scene.actions->controls.*control.value) text += fmt::format(", {}", control.name);
+    return text;
+}
+
 std::string boxes(const std::vector<IndexBox>& boxes) {
     std::string text;
     for (const IndexBox& box : boxes)
@@ -144,6 +152,9 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
     const auto blows = [](const SceneDescription& scene) {
         return std::string(scene.wind.blows() ? "blowing" : "none");
     };
+    const auto forces = [](const SceneDescription& scene) {
+        return std::string(scene.worst_forces ? "worst" : scene.forces ? "true" : "false");
+    };
     const auto weight = [](const SceneDescription& scene) {
         return std::string(gravity_changes(scene) ? "changing" : "steady");
     };
@@ -155,9 +166,10 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
             if (auto found = cloth_difference(key, fmt::format("/cloths/{}", k), first.cloths[k], other.cloths[k]))
                 return found;
     for (const Difference& found :
-         {differ("/time/fps", first.time.fps, other.time.fps), differ("/forces", first.forces, other.forces),
+         {differ("/time/fps", first.time.fps, other.time.fps), differ("/forces", forces(first), forces(other)),
           differ("/colliders", kinds(first.colliders), kinds(other.colliders)),
-          differ("/wind", blows(first), blows(other)), differ("/gravity_keys", weight(first), weight(other)),
+          differ("/actions", controls(first), controls(other)), differ("/wind", blows(first), blows(other)),
+          differ("/gravity_keys", weight(first), weight(other)),
           differ("/seams", fmt::format("a list of {}", first.seams.size()),
                  fmt::format("a list of {}", other.seams.size())),
           differ("/cutters", fmt::format("a list of {}", first.cutters.size()),

@@ -55,6 +55,7 @@ enum class StepKind {
     body_move,
     body_strike,
     momentum,
+    worst_impulses,
     self_gather,
     self_boxes,
     self_tree,
@@ -81,8 +82,8 @@ using StepConstants =
     std::variant<std::monostate, glsl::ForcePush, glsl::PredictPush, glsl::ExplicitPush, glsl::BendTargetPush,
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
-                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::MomentumPush, glsl::BodyMovePush,
-                 glsl::BodyStrikePush, glsl::SeamPush>;
+                 glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::WorstImpulsesPush, glsl::MomentumPush,
+                 glsl::BodyMovePush, glsl::BodyStrikePush, glsl::SeamPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

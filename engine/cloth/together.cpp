@@ -194,6 +194,7 @@ bool in_images(const Step& step) {
         case StepKind::collide:
         case StepKind::clear_impulses:
         case StepKind::momentum:
+        case StepKind::worst_impulses:
         case StepKind::self_gather:
         case StepKind::self_impulses:
         case StepKind::self_return:

@@ -56,6 +56,45 @@ void add_cloth(const SceneDescription& scene, const Cloth& cloth, std::uint32_t 
     }
 }
 
+/// Returns the last of a scene's actions until a frame that tells something; null: none does.
+template <class List>
+const List* last_told(const SceneActions& actions, std::uint32_t frame, List FrameActions::*list) {
+    const List* found = nullptr;
+    for (const FrameActions& step : actions.steps) {
+        if (step.frame > frame) break;
+        if (!(step.*list).empty()) found = &(step.*list);
+    }
+    return found;
+}
+
+/// Adds what no path or key of the scene tells of its actions.
+void add_actions(const SceneDescription& scene, std::uint32_t frame, FrameValues& values) {
+    const SceneActions& actions = *scene.actions;
+    Given given(values, "");
+    const auto add_six = [&](const std::string& name, const SixNumbers& six, const char* first, const char* second,
+                             const char* unit, const char* unit_about) {
+        given.add(name + first, {six[0], six[1], six[2]}, unit);
+        given.add(name + second, {six[3], six[4], six[5]}, unit_about);
+    };
+    if (const auto* const hands = last_told(actions, frame, &FrameActions::hands))
+        for (std::size_t k = 0; k < hands->size(); ++k)
+            add_six(fmt::format("hands_{}", k), (*hands)[k], "_translate", "_rotate", "m", "deg");
+    const auto* const grasps = last_told(actions, frame, &FrameActions::grasps);
+    for (std::size_t k = 0; k < actions.controls.hands.size(); ++k)
+        given.add(fmt::format("hands_{}_hold", k), grasps && (*grasps)[k][0] >= 0 ? 1 : 0);
+    if (const auto* const forces = last_told(actions, frame, &FrameActions::body_forces))
+        for (std::size_t k = 0; k < forces->size(); ++k)
+            add_six(fmt::format("body_{}", k), (*forces)[k], "_force", "_moment", "n", "n_m");
+    const auto* const holds = last_told(actions, frame, &FrameActions::holds);
+    std::size_t pin = 0;
+    for (const Cloth& cloth : scene.cloths)
+        for (std::size_t k = 0; k < cloth.pins.size(); ++k, ++pin)
+            if (holds) values[fmt::format("{}/given_pins_{}_hold", cloth.name, k)] = (*holds)[pin] ? 1 : 0;
+    for (const FrameActions& step : actions.steps)
+        for (std::size_t k = 0; step.frame == frame && k < step.body_impulses.size(); ++k)
+            add_six(fmt::format("body_{}", k), step.body_impulses[k], "_impulse", "_twist", "n_s", "n_m_s");
+}
+
 std::string set_array(const Json::Value& value) {
     const auto numbers = [&](const std::string& shape, const std::vector<double>& all) {
         return npy_array("<f8", shape, std::as_bytes(std::span(all)));
@@ -80,6 +119,7 @@ FrameValues given_values(const SceneDescription& scene, std::uint32_t frame) {
         given.add(fmt::format("collider_{}_{}", k, collider_names[scene.colliders[k].shape.index()]),
                   scene.colliders[k].path, time);
     for (const Cloth& cloth : scene.cloths) add_cloth(scene, cloth, frame, values);
+    if (scene.actions) add_actions(scene, frame, values);
     return values;
 }
 

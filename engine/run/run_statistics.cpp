@@ -25,6 +25,9 @@ void add_force(FrameValues& values, const std::string& cloth, const ForceOnCloth
         const char axis = "xyz"[k];
         values[fmt::format("{}/force_{}_{}_n", cloth, of.by, axis)] = of.force[k];
         if (of.moment) values[fmt::format("{}/moment_{}_{}_n_m", cloth, of.by, axis)] = (*of.moment)[k];
+        if (of.worst) values[fmt::format("{}/worst_force_{}_{}_n", cloth, of.by, axis)] = (*of.worst)[k];
+        if (of.worst_moment)
+            values[fmt::format("{}/worst_moment_{}_{}_n_m", cloth, of.by, axis)] = (*of.worst_moment)[k];
     }
 }
 

@@ -420,6 +420,8 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (members.fit({"cloths", "forces"})) check_forces(node, scene);
     if (members.fit({"cloths", "solver"})) check_tear_limits(node, scene);
     warn_of_doubts(members, scene);
+    if (members.fit({"time", "cloths", "colliders", "seams", "actions"}) && !check_actions(members, scene))
+        return false;
     if (members.fit({"time", "cloths", "solver"}) && !check_loads(node, scene)) return false;
     return !members.fit({"time", "gravity", "gravity_keys", "cloths", "solver"}) || check_fall(members, scene);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/action_rows.h"
 #include "scene/collider_rows.h"
 #include "scene/look_rows.h"
 #include "scene/outline_rows.h"
@@ -418,9 +419,12 @@ const Object<SceneDescription> scene{
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
-        {"forces", &SceneDescription::forces, boolean(),
+        {"forces", true_or_worst(), read_forces,
          "Whether the numbers of each frame tell the forces on each cloth: at each of its pins, of each collider, of "
-         "gravity, air, damping and other cloths."},
+         "gravity, air, damping and other cloths. \"worst\": also the largest force of a substep, of colliders, other "
+         "cloths, air and loads. Absent: false."},
+        {"actions", &SceneDescription::actions, optional<SceneActions>(actions),
+         "What it is told on the way: what an ensemble was told. Absent: nothing."},
         {"camera", &SceneDescription::camera, optional<Camera>(camera),
          "The camera. Absent: one that holds the cloths where they start, hang and land, and the colliders."},
         {"lights", &SceneDescription::lights,

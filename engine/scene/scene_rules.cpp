@@ -130,6 +130,19 @@ Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point) {
             }};
 }
 
+ValueText true_or_worst() {
+    return {R"("anyOf": [{"type": "boolean"}, {"const": "worst"}])", "`true`, `false` or `\"worst\"`"};
+}
+
+bool read_forces(const SceneNode& node, SceneDescription& scene) {
+    if (!node) return true;
+    scene.worst_forces = node.value()->isString() && *node.value() == "worst";
+    scene.forces = scene.worst_forces;
+    if (scene.worst_forces) return true;
+    if (!node.value()->isBool()) return node.fail_expected("true, false or \"worst\"");
+    return node.read(scene.forces);
+}
+
 bool check_cutter_times(const SceneNode& node, Cutter& cutter) {
     std::array<double, 2> times{};
     if (!two_numbers(not_negative).read(node, times)) return false;

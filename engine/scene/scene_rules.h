@@ -110,6 +110,24 @@ bool check_scene(const Members& members, SceneDescription& scene);
 bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.
 void warn_of_doubts(const Members& members, const SceneDescription& scene);
+/// What a pin, hand, collider or body is told: m, N and so on, and then degrees, N m and so on; 0 where 3 are given.
+Value<SixNumbers> three_or_six_numbers();
+/// The particles that a hand holds: first column and row, last column and row.
+using Grasp = std::array<std::int32_t, 4>;
+Value<Grasp> grasp();
+Value<std::vector<bool>> flags();
+Value<EnsembleControls> controls();
+inline constexpr std::string_view hand_list = "an array of at most 1024 names of cloths";
+inline constexpr std::size_t most_hands = 1024;
+/// Reads the hands' cloths, which `check_actions` finds.
+bool read_hands(const SceneNode& node, SceneActions& actions);
+/// Checks that frames increase.
+bool check_steps(const Members& members, SceneActions& actions);
+/// Checks what the scene is told against its cloths and colliders.
+bool check_actions(const Members& members, SceneDescription& scene);
+/// Whether a scene tells forces, and the worst of them.
+ValueText true_or_worst();
+bool read_forces(const SceneNode& node, SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);
 bool check_camera(const Members& members, Camera& camera);

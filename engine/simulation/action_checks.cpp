@@ -81,8 +81,8 @@ bool meet(const IndexBox& a, const IndexBox& b) {
 /// Checks a member's pins and hands.
 class Hands {
   public:
-    Hands(const EnsembleActions& actions, const Member& member, std::size_t number)
-        : actions_(actions), model_(member.model), number_(number), from_(member.frame / member.model.scene.time.fps) {}
+    Hands(const EnsembleActions& actions, const SimulationModel& model, std::uint32_t frame, std::size_t number)
+        : actions_(actions), model_(model), number_(number), from_(frame / model.scene.time.fps) {}
 
     void check() const {
         std::size_t first_pin = number_ * pin_count(model_);
@@ -203,9 +203,11 @@ std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t ind
     return IndexBox{{number(0), number(1)}, {number(2), number(3)}};
 }
 
-void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const Members& members) {
-    const SimulationModel& model = members.front()->model;
-    const std::size_t count = members.size(), pins = pin_count(model), hands = controls.hands.size();
+namespace {
+
+void check_lists(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                 std::size_t count) {
+    const std::size_t pins = pin_count(model), hands = controls.hands.size();
     check_numbers(actions.wind, "wind", controls.wind, 3, count);
     check_numbers(actions.gravity, "gravity", controls.gravity, 3, count);
     check_numbers(actions.pins, "pins", controls.pins, numbers_of_key * pins, count);
@@ -216,10 +218,26 @@ void check_actions(const EnsembleActions& actions, const EnsembleControls& contr
     check_bodies(actions, controls, model, count);
     check_list(actions.holds.size(), "holds", controls.holds, pins, count);
     check_list(actions.grasps.size(), "grasps", hands > 0, numbers_of_grasp * hands, count);
-    for (std::size_t number = 0; number < count; ++number) {
-        Hands(actions, *members[number], number).check();
-        check_pressures(actions.loads, members[number]->model, number);
-    }
+}
+
+void check_member(const EnsembleActions& actions, std::size_t number, std::uint32_t frame,
+                  const SimulationModel& model) {
+    Hands(actions, model, frame, number).check();
+    check_pressures(actions.loads, model, number);
+}
+
+}  // namespace
+
+void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const Members& members) {
+    check_lists(actions, controls, members.front()->model, members.size());
+    for (std::size_t number = 0; number < members.size(); ++number)
+        check_member(actions, number, members[number]->frame, members[number]->model);
+}
+
+void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                   std::uint32_t frame) {
+    check_lists(actions, controls, model, 1);
+    check_member(actions, 0, frame, model);
 }
 
 }  // namespace drape

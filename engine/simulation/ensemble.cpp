@@ -9,6 +9,7 @@
 #include "cloth/members.h"
 #include "cloth/statistics_transfer.h"
 #include "picture/pictures.h"
+#include "simulation/action_player.h"
 #include "simulation/contact_report.h"
 #include "simulation/device_parts.h"
 #include "simulation/member_actions.h"
@@ -19,7 +20,7 @@ namespace drape {
 
 namespace {
 
-constexpr const char* member_part = "member";
+constexpr const char *member_part = "member", *recording_part = "recording";
 
 template <class Archive>
 void transfer_body(Archive& archive, BodyState& body) {
@@ -36,7 +37,7 @@ void transfer_body(Archive& archive, BodyState& body) {
 /// impossible.
 template <class Archive>
 bool transfer(Archive& archive, MemberProgress& member, MemberMotion& motion) {
-    archive(member.frame, member.pins_acted, member.colliders_acted, member.judged);
+    archive(member.frame, member.acted.pins, member.acted.colliders, member.judged);
     bool failed = member.failure.has_value();
     archive(failed);
     if (failed) {
@@ -59,6 +60,8 @@ Members made(const std::vector<SceneDescription>& scenes, const EnsembleControls
     if (scenes.empty()) throw Error("an ensemble needs a member");
     Members members;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
+        if (scenes[k].actions)
+            throw Error("an ensemble is told in its steps what to do, and the scene has actions of its own");
         if (const auto found = shape_difference(scenes.front(), scenes[k]))
             throw Error(fmt::format(
                 "member {} is of another shape than member 0: {}; an ensemble's members share grids, pinned particles, "
@@ -87,7 +90,8 @@ struct Ensemble::Parts {
                            if (drape::sharing_obstacle(two.front()->model)) return;
                            MemberFrames::check_room(given.parts_->device, two, scenes.size(), frame_options());
                        })),
-          obstacle(obstacle_of(members)) {
+          obstacle(obstacle_of(members)),
+          recordings(wanted.record ? scenes.size() : 0) {
         frames = std::make_unique<MemberFrames>(given.parts_->device, members, frame_options(), !obstacle);
     }
 
@@ -103,6 +107,7 @@ struct Ensemble::Parts {
     Members members;
     std::optional<std::string> obstacle;
     std::unique_ptr<MemberFrames> frames;
+    std::vector<std::vector<FrameActions>> recordings;  ///< by member; empty: nothing is recorded
     /// Pictures of the members that were drawn last, each with its images.
     std::map<std::size_t, std::unique_ptr<Pictures>> pictures;
     std::vector<std::uint8_t> picture;
@@ -139,7 +144,11 @@ void Ensemble::step(const EnsembleActions& actions) {
     Members& members = parts_->members;
     check_actions(actions, parts_->options.controls, members);
     for (std::size_t k = 0; k < members.size() && acts(parts_->options.controls); ++k) {
-        act(actions, k, *members[k]);
+        if (!parts_->recordings.empty()) {
+            FrameActions told = part_of(actions, k, members[k]->model, members[k]->frame + 1);
+            if (is_any(told)) parts_->recordings[k].push_back(std::move(told));
+        }
+        act(actions, k, members[k]->frame, members[k]->model, members[k]->acted);
         parts_->frames->take_actions(k);
         if (is_any(actions)) parts_->frames->wake(k);
     }
@@ -159,6 +168,7 @@ void Ensemble::reset(std::span<const std::size_t> members) {
     parts_->check_numbers(members);
     for (const std::size_t number : members) {
         parts_->members[number]->begin_anew();
+        if (!parts_->recordings.empty()) parts_->recordings[number].clear();
         parts_->frames->take_actions(number);
     }
     parts_->frames->reset(members);
@@ -182,8 +192,18 @@ SimulationState Ensemble::save(std::size_t number) const {
     MemberMotion motion(member.model);
     transfer(writer, member, motion);  // when writing, transfer changes nothing
     state[member_part] = writer.take();
+    if (!parts_->recordings.empty()) {
+        ByteWriter recording;
+        transfer_actions(recording, parts_->recordings[number]);
+        state[recording_part] = recording.take();
+    }
     seal(state);
     return state;
+}
+
+SceneActions Ensemble::recorded(std::size_t member) const {
+    if (parts_->recordings.empty()) throw Error("nothing is recorded: the ensemble was made without");
+    return {parts_->options.controls, parts_->recordings.at(member)};
 }
 
 void Ensemble::restore(std::span<const std::size_t> members, std::span<const SimulationState> states) {
@@ -192,6 +212,7 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         throw Error(fmt::format("{} states for {} members", states.size(), members.size()));
     std::vector<MemberProgress> progress;
     std::vector<MemberMotion> motions;
+    std::vector<std::vector<FrameActions>> recordings(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
         const Member& member = *parts_->members[members[k]];
         expect_sealed(states[k]);
@@ -205,12 +226,18 @@ void Ensemble::restore(std::span<const std::size_t> members, std::span<const Sim
         ByteReader reader(part->second);
         if (!transfer(reader, progress.back(), motions.back()) || reader.left() > 0)
             throw Error("the saved state is not of this scene: its part 'member' is of something else");
+        if (parts_->recordings.empty()) continue;
+        const auto told = states[k].find(recording_part);
+        if (told == states[k].end()) throw Error("the saved state is of an ensemble that records nothing");
+        ByteReader recording(told->second);
+        transfer_actions(recording, recordings[k]);
     }
     parts_->frames->restore(members, states);
     for (std::size_t k = 0; k < members.size(); ++k) {
         Member& member = *parts_->members[members[k]];
         static_cast<MemberProgress&>(member) = std::move(progress[k]);
         motions[k].put_into(member.model);
+        if (!parts_->recordings.empty()) parts_->recordings[members[k]] = std::move(recordings[k]);
         parts_->frames->take_actions(members[k]);
     }
     parts_->frames->refresh();

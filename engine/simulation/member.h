@@ -72,6 +72,11 @@ struct MemberMotion {
     std::vector<BodyActions> bodies;
 };
 
+/// What actions have moved so far.
+struct Acted {
+    bool pins = false, colliders = false;
+};
+
 /// What the host knows of a member's progress.
 struct MemberProgress {
     std::uint32_t frame = 0;
@@ -81,8 +86,8 @@ struct MemberProgress {
     std::vector<BodyState> bodies;
     FrameEffort effort;
     std::optional<SelfContactReport> self_contact;
-    bool pins_acted = false, colliders_acted = false;  ///< actions have moved these
-    std::unique_ptr<Watch> watch;                      ///< of the member's model
+    Acted acted;
+    std::unique_ptr<Watch> watch;  ///< of the member's model
 };
 
 struct Member : MemberProgress {

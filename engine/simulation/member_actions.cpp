@@ -36,16 +36,18 @@ void go(MotionPath& path, double from, double to, std::span<const double> target
 /// A member's step, and its part of the actions.
 class Acting {
   public:
-    Acting(const EnsembleActions& actions, std::size_t number, Member& member)
+    Acting(const EnsembleActions& actions, std::size_t number, std::uint32_t frame, SimulationModel& model,
+           Acted& acted)
         : actions_(actions),
           number_(number),
-          member_(member),
-          from_(member.frame / member.model.scene.time.fps),
-          to_((member.frame + 1) / member.model.scene.time.fps) {}
+          model_(model),
+          acted_(acted),
+          from_(frame / model.scene.time.fps),
+          to_((frame + 1) / model.scene.time.fps) {}
 
     void blow() {
         if (actions_.wind.empty()) return;
-        Wind& wind = member_.model.scene.wind;
+        Wind& wind = model_.scene.wind;
         wind.velocity = vector_of(actions_.wind);
         wind.gust.amplitude = 0;
         wind.keys.clear();
@@ -53,14 +55,14 @@ class Acting {
 
     void weigh() {
         if (actions_.gravity.empty()) return;
-        SceneDescription& scene = member_.model.scene;
+        SceneDescription& scene = model_.scene;
         scene.gravity_keys =
             keys_to<VectorKey>(vector_of(actions_.gravity), gravity_at(scene, 0), strongest_gravity(scene));
     }
 
     void load() {
-        std::size_t index = number_ * load_count(member_.model);
-        for (Cloth& cloth : member_.model.scene.cloths)
+        std::size_t index = number_ * load_count(model_);
+        for (Cloth& cloth : model_.scene.cloths)
             for (Load& each : cloth.loads) {
                 if (actions_.loads.empty()) return;
                 const Vec3 now{actions_.loads[3 * index], actions_.loads[3 * index + 1], actions_.loads[3 * index + 2]};
@@ -74,36 +76,34 @@ class Acting {
     }
 
     void move_pins() {
-        SimulationModel& model = member_.model;
         std::size_t pin = 0;
-        for (std::size_t k = 0; k < model.cloths.size(); ++k) {
-            for (DynamicPin& each : model.cloths[k].dynamic_pins) {
+        for (std::size_t k = 0; k < model_.cloths.size(); ++k) {
+            for (DynamicPin& each : model_.cloths[k].dynamic_pins) {
                 if (each.hand) {
                     move_hand(each);
                     continue;
                 }
-                move_pin(each, number_ * pin_count(model) + pin + each.number);
-                model.scene.cloths[k].pins[each.number].path = each.path;
+                move_pin(each, number_ * pin_count(model_) + pin + each.number);
+                model_.scene.cloths[k].pins[each.number].path = each.path;
             }
-            pin += model.scene.cloths[k].pins.size();
+            pin += model_.scene.cloths[k].pins.size();
         }
-        member_.pins_acted = member_.pins_acted || !actions_.pins.empty();
+        acted_.pins = acted_.pins || !actions_.pins.empty();
     }
 
     void move_colliders() {
-        SimulationModel& model = member_.model;
-        for (std::size_t k = 0; k < model.scene.colliders.size(); ++k) {
-            if (model.scene.colliders[k].mass) continue;  // gravity and cloth move it
-            MotionPath& path = model.scene.colliders[k].path;
-            move(path, actions_.colliders, number_ * model.scene.colliders.size() + k, member_.colliders_acted);
-            for (std::vector<KeptCollider>& list : model.kept_colliders) list[k].collider.path = path;
+        for (std::size_t k = 0; k < model_.scene.colliders.size(); ++k) {
+            if (model_.scene.colliders[k].mass) continue;  // gravity and cloth move it
+            MotionPath& path = model_.scene.colliders[k].path;
+            move(path, actions_.colliders, number_ * model_.scene.colliders.size() + k, acted_.colliders);
+            for (std::vector<KeptCollider>& list : model_.kept_colliders) list[k].collider.path = path;
         }
-        member_.colliders_acted = member_.colliders_acted || !actions_.colliders.empty();
+        acted_.colliders = acted_.colliders || !actions_.colliders.empty();
     }
 
     void push_bodies() {
-        std::vector<Body>& bodies = member_.model.bodies.front().bodies;
-        for (std::size_t k = 0; k < bodies.size() && member_.model.options.bodies; ++k) {
+        std::vector<Body>& bodies = model_.bodies.front().bodies;
+        for (std::size_t k = 0; k < bodies.size() && model_.options.bodies; ++k) {
             BodyActions& acts = bodies[k].acts;
             const std::size_t index = number_ * bodies.size() + k;
             const BodyActions before = acts;
@@ -115,7 +115,7 @@ class Acting {
                 !actions_.body_velocities.empty() && (actions_.body_sets.empty() || actions_.body_sets[index] != 0);
             acts.given += most_given(bodies[k], to_ - from_);
             // Velocities are those in the middle of substeps, so half a substep of the force is past as it changes.
-            const double half = 0.5 * (to_ - from_) / member_.model.scene.solver.substeps;
+            const double half = 0.5 * (to_ - from_) / model_.scene.solver.substeps;
             acts.impulse = plus(acts.impulse, times(half, minus(before.force, acts.force)));
             acts.twist = plus(acts.twist, times(half, minus(before.moment, acts.moment)));
         }
@@ -156,7 +156,7 @@ class Acting {
     }
     void move_pin(DynamicPin& pin, std::size_t index) const {
         MotionPath before = pin.path;
-        move(pin.path, actions_.pins, index, member_.pins_acted);
+        move(pin.path, actions_.pins, index, acted_.pins);
         if (actions_.holds.empty()) return;
         if (actions_.holds[index] != 0)
             take(pin);
@@ -164,7 +164,7 @@ class Acting {
             let_go(pin, std::move(before));
     }
     void move_hand(DynamicPin& pin) const {
-        const std::size_t index = number_ * member_.model.options.hands.size() + *pin.hand;
+        const std::size_t index = number_ * model_.options.hands.size() + *pin.hand;
         MotionPath before = pin.path;
         if (pin.path.keys.empty() && !actions_.hands.empty())
             pin.path.keys = {key_of(from_, actions_.hands.subspan(numbers_of_key * index, numbers_of_key))};
@@ -179,7 +179,8 @@ class Acting {
 
     const EnsembleActions& actions_;
     std::size_t number_;
-    Member& member_;
+    SimulationModel& model_;
+    Acted& acted_;
     double from_, to_;
 };
 
@@ -230,8 +231,9 @@ ModelOptions controlled(ModelOptions options, const EnsembleControls& controls) 
     return options;
 }
 
-void act(const EnsembleActions& actions, std::size_t number, Member& member) {
-    Acting acting(actions, number, member);
+void act(const EnsembleActions& actions, std::size_t number, std::uint32_t frame, SimulationModel& model,
+         Acted& acted) {
+    Acting acting(actions, number, frame, model, acted);
     acting.blow();
     acting.weigh();
     acting.load();

@@ -21,8 +21,11 @@ std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t ind
 
 /// Throws ActionError where members cannot follow these actions.
 void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const Members& members);
-/// Applies a member's part of the actions to its model, for the next frame.
-void act(const EnsembleActions& actions, std::size_t number, Member& member);
+/// Throws ActionError where a single member that is at a frame cannot follow them.
+void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                   std::uint32_t frame);
+/// Applies a member's part of the actions to its model, for the frame after `frame`.
+void act(const EnsembleActions& actions, std::size_t number, std::uint32_t frame, SimulationModel& model, Acted& acted);
 /// Returns whether there is anything to do.
 bool is_any(const EnsembleActions& actions);
 

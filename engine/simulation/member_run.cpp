@@ -71,6 +71,7 @@ std::optional<Job> MemberRun::next_job() {
             release_withheld();
             continue;
         }
+        if (listener_.on_begin) listener_.on_begin(pilot_->simulated());
         pilot_->begin();
         begun_ = true;
     }
@@ -80,7 +81,7 @@ std::optional<Job> MemberRun::first_job() {
     Job job{.work = {.substeps = pilot_->state_substeps(), .hands_out = true},
             .wanted = request_.wanted(0),
             .searches = searched(0)};
-    if (job.searches) job.until = Job::Until::delivered;
+    if (job.searches || listener_.on_begin) job.until = Job::Until::delivered;
     ++next_frame_;
     ++jobs_.undelivered;
     jobs_.unfinished += job.until != Job::Until::submitted;
@@ -102,7 +103,7 @@ std::optional<Job> MemberRun::job_of(Work work) {
     if (own.attempt > 0 && listener_.on_attempt) listener_.on_attempt({own.frame, own.substeps, own.attempt});
     if (own.attempt > 0 && own.before) waiting_.withheld.clear();  // another attempt begins
     const bool ends_probe = is_known && own.known->withheld && own.frame + 1 == pilot_->simulated();
-    if (job.searches || ends_probe)
+    if (job.searches || ends_probe || listener_.on_begin)
         job.until = Job::Until::delivered;
     else if (own.awaited || (own.simulates && model_.self_contact))
         job.until = Job::Until::settled;

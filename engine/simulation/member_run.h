@@ -20,6 +20,8 @@ struct RunListener {
     bool keep_promises = true;  ///< a closed loop that gives up throws ToleranceMissed
     CutListener on_cut = {};
     std::function<void(const FrameAttempt&)> on_attempt = {};  ///< called before each attempt
+    /// Called before the pilot begins a frame, after all earlier ones were handed out, with what is told for it.
+    std::function<void(std::uint32_t)> on_begin = {};
     /// Receives the statistics and effort, nothing else, of each frame that was not requested, in order with the
     /// others.
     std::function<void(const FinishedFrame&)> on_passed_over = {};

@@ -16,9 +16,11 @@
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
 #include "picture/pictures.h"
+#include "simulation/action_player.h"
 #include "simulation/device_parts.h"
 #include "simulation/frame_checks.h"
 #include "simulation/frame_server.h"
+#include "simulation/member_actions.h"
 #include "simulation/member_state.h"
 #include "simulation/scene_checks.h"
 #include "simulation/state_checksum.h"
@@ -138,7 +140,9 @@ struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
         : device(given),
           wanted(options),
-          model(checked_scene(scene), {.skip = options.skip, .device = device_kind(given.info())}),
+          model(able_to_move(checked_scene(scene), controls_of(scene)),
+                controlled({.skip = options.skip, .device = device_kind(given.info())}, controls_of(scene))),
+          player(scene.actions ? std::make_unique<ActionPlayer>(model) : nullptr),
           watch(model),
           passages(model),
           motion(model),
@@ -148,16 +152,32 @@ struct Simulation::Parts {
     void serve_alone() {
         // What moves by itself is drawn once it is known where, on the same device if there is no other.
         Device::Parts* drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
-        if (asked.draw && !drawing && body_count(model) > 0) drawing = device.parts_.get();
+        if (asked.draw && !drawing && (body_count(model) > 0 || player)) drawing = device.parts_.get();
         server = std::make_shared<FrameServer>(device.parts_->device, model, drawing ? beside_pictures() : asked,
                                                listener(drawing != nullptr));
-        if (drawing) pictures = std::make_unique<Pictures>(drawing->device, model, asked);
+        if (drawing) pictures = std::make_unique<Pictures>(drawing->device, shown_model(), asked);
+    }
+
+    /// Returns the model of which pictures are drawn: where actions move things, it knows where these are in any frame.
+    const SimulationModel& shown_model() {
+        if (!player) return model;
+        shown = std::make_unique<SimulationModel>(model);
+        shown->scene = player->shown();
+        return *shown;
+    }
+
+    /// Puts into the models what the scene is told for the step to a frame.
+    void act_on(std::uint32_t frame) {
+        const bool told = player->put(frame);
+        server->graphs().take_actions(number);
+        if (told) run().pilot().wake();
     }
 
     RunListener listener(bool draws_beside) {
         RunListener all{.keep_promises = wanted.keep_promises,
                         .on_cut = cut_listener(wanted.on_cut),
                         .on_attempt = wanted.on_attempt};
+        if (player) all.on_begin = [this](std::uint32_t frame) { act_on(frame); };
         if (asked.judges) all.on_passed_over = [this](const FinishedFrame& frame) { judge(frame); };
         if (draws_beside)
             all.on_cut = [this, own = all.on_cut](const CutEvent& event, const CutTopology& topology) {
@@ -235,6 +255,8 @@ struct Simulation::Parts {
     Device device;
     SimulationOptions wanted;
     SimulationModel model;
+    std::unique_ptr<ActionPlayer> player;    ///< null: the scene has no actions
+    std::unique_ptr<SimulationModel> shown;  ///< of pictures, beside a player
     Watch watch;
     std::optional<FrameFailure> failure;  ///< of the first frame that failed, whether it was handed out or not
     PassageWatch passages;
@@ -359,6 +381,7 @@ void Simulation::restore(const SimulationState& state) {
     ByteReader motion = checked_part<MotionWatch>(state, motion_part, parts_->model);
     if (!parts_->is_alone()) throw Error("simulations that were made together cannot be restored");
     const std::size_t only = 0;
+    if (parts_->player) parts_->player->put(0);
     restore_states(*parts_->server, std::span(&only, 1), std::span(&state, 1));
     parts_->watch.transfer(watch);
     parts_->passages.transfer(passages);
@@ -366,7 +389,9 @@ void Simulation::restore(const SimulationState& state) {
     if (parts_->pictures) parts_->pictures->follow(parts_->topologies());
 }
 
-const SceneDescription& Simulation::scene() const { return parts_->model.scene; }
+const SceneDescription& Simulation::scene() const {
+    return parts_->player ? parts_->player->shown() : parts_->model.scene;
+}
 
 std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
     if (!parts_->is_alone()) return CutTopology(parts_->model.cloths[cloth]).whole_triangles();

@@ -126,7 +126,7 @@ constexpr ConstantRow constant_rows[] = {
     {"sews_vectors", [](Place p) { return seam_has_vectors(p) ? 1u : 0u; }},
     {"sews_weight", [](Place p) { return p.model.weighs && seam_stage(p) == glsl::seam_forces ? 1u : 0u; }},
     {"sheared", [](Place p) { return p.step.push<glsl::NestedPush>().rest_length.z > 0 ? 1u : 0u; }},
-    {"splits", [](Place p) { return splits_pins(p.model.scene) ? 1u : 0u; }},
+    {"splits", [](Place p) { return splits_pins(p.model) ? 1u : 0u; }},
     {"steps", [](Place p) { return p.step.count; }},
     {"stores_stretch_tension", [](Place p) { return stores_stretch_tension(p) ? 1u : 0u; }},
     {"stores_tension", [](Place p) { return stores_tension(p) ? 1u : 0u; }},

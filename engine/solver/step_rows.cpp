@@ -215,6 +215,7 @@ std::vector<StepRow> other_rows() {
         {StepKind::body_move, "motion of bodies", {{plain, "body_move.comp", over_bodies}}},
         {StepKind::body_strike, "strikes on bodies", {{plain, "body_strike.comp", over_bodies}}},
         {StepKind::momentum, "momentum", {{plain, "momentum.comp", over_strips}}},
+        {StepKind::worst_impulses, "worst impulses", {{plain, "worst_impulses.comp", one_workgroup}}},
     };
 }
 // clang-format on

@@ -41,6 +41,11 @@ SHARED float words_number(ImpulseWords words) {
     return negative ? -number : number;
 }
 
+SHARED float squared_impulse(ImpulseWords x, ImpulseWords y, ImpulseWords z) {
+    vec3 numbers = vec3(words_number(x), words_number(y), words_number(z));
+    return ordered_dot(numbers, numbers);
+}
+
 SHARED ImpulseSum no_impulse() {
     ImpulseNumber none = ImpulseNumber(0, 0);
     return ImpulseSum(none, none, none);

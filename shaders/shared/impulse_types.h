@@ -23,6 +23,14 @@ const int impulse_first = 5;     // by the first collider
 /// Units of the sum of how far free particles moved, by mass: to a metre of an inner particle.
 const float travel_units = 1073741824.0f;
 
+/// Where the largest of a frame's substeps are kept, all rows of sums are followed by as many with what they were when
+/// the substep before ended, and these by as many with the largest impulse and the largest moment of a substep.
+const int impulse_tables = 3;
+
+struct WorstImpulsesPush {
+    int rows;  // of sums
+};
+
 struct ClearImpulsesPush {
     int rows;
     float units;  // to a metre of an inner particle's motion in a substep

@@ -33,13 +33,15 @@ class AutoRun {
     std::size_t last() const { return frames_.size() - 1; }
     double frame_time() const { return 1 / fps_; }
     double weight() const { return 9.81 * at(0)[0].mass; }
-    Vec3 force(const std::string& by, std::size_t frame) const {
+    ForceOnCloth told(const std::string& by, std::size_t frame) const {
         for (const ForceOnCloth& each : at(frame)[0].forces)
-            if (each.by == by) return each.force;
+            if (each.by == by) return each;
         ADD_FAILURE() << "no force by " << by;
         return {};
     }
+    Vec3 force(const std::string& by, std::size_t frame) const { return told(by, frame).force; }
     Vec3 force(const std::string& by) const { return force(by, last()); }
+    Vec3 worst(const std::string& by) const { return told(by, last()).worst.value_or(Vec3{}); }
 
   private:
     double fps_;
@@ -105,6 +107,21 @@ TEST_F(AutoForcesTest, AnImpactGivesTheMomentumThatItTakes) {
         given += run.force("collider_0_plane", frame)[1] * run.frame_time();
     const double time = static_cast<double>(run.last()) * run.frame_time();
     expect_near({0, given, 0}, {0, run.at(0)[0].mass * (3 + 9.81 * time), 0}, 1e-4, "an impact");
+}
+
+/// The last substep of a frame has the most of a pull that grows, and what rests bears the same in every substep.
+TEST_F(AutoForcesTest, TheWorstSubstepIsTold) {
+    SceneDescription scene = level_sheet(0.105, 3);
+    scene.worst_forces = true;
+    scene.colliders = {{Box{{0, 0, 0}, {0.5, 0.1, 0.5}}, 0.5}};
+    scene.cloths[0].loads = {test::pull({{0, 0}, {8, 8}}, std::vector<VectorKey>{{0, {}}, {10, {0, -2, 0}}})};
+    const AutoRun run(scene, 120);
+    const double now = 0.2 * 120 * run.frame_time(), mean = now - 0.1 * run.frame_time();
+    expect_near(run.force("loads"), {0, -mean, 0}, 1e-5, "the load's mean");
+    EXPECT_GT(run.worst("loads")[1], -now);
+    EXPECT_LT(run.worst("loads")[1], -(mean + 0.5 * (now - mean)));
+    expect_near(run.worst("collider_0_box"), {0, run.weight() - run.worst("loads")[1], 0}, 1e-4,
+                "the box, in the worst substep");
 }
 
 TEST_F(AutoForcesTest, ForcesAddUpToTheChangeOfMomentum) {

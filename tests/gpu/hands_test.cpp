@@ -327,6 +327,58 @@ TEST_F(HandsTest, ActionsThatNobodyCanFollowAreRefusedAndNothingAdvances) {
     EXPECT_THROW(Ensemble({scene_of()}, {.controls = {.hands = {1}}}, library_device()), Error);
 }
 
+/// A sheet that hangs at rest in a vacuum from a hand at its right upper corner, and from a pin at its left one or from
+/// another hand.
+SceneDescription hung_up(const std::string& method) {
+    SceneDescription scene = free_sheet(method);
+    scene.forces = true;
+    scene.gravity = {0, -9.81, 0};
+    scene.cloths[0].damping = 12;
+    scene.cloths[0].placement.v = {0, -1, 0};
+    scene.cloths[0].placement.jitter = 0;
+    if (method != "auto") scene.solver.substeps = method == "explicit" ? 60 : 12;
+    return scene;
+}
+
+Vec3 force_of(const Ensemble& ensemble, const std::string& by) {
+    for (const ForceOnCloth& each : ensemble.statistics(0)[0].forces)
+        if (each.by == by) return each.force;
+    ADD_FAILURE() << "no force by " << by;
+    return {};
+}
+
+TEST_F(HandsTest, HandsBearTheWeightOfWhatTheyHold) {
+    for (const std::string& method : methods) {
+        SCOPED_TRACE(method);
+        const SceneDescription scene = hung_up(method);
+        Ensemble ensemble({scene}, {.controls = {.hands = {0, 0}}}, library_device());
+        const std::vector<double> hands(12);
+        const std::vector<std::int32_t> corners{0, 0, 0, 0, 16, 0, 16, 0};
+        ensemble.step({.hands = hands, .grasps = corners});
+        for (int frame = 0; frame < 200; ++frame) ensemble.step();
+        const double weight = 9.81 * ensemble.statistics(0)[0].mass;
+        EXPECT_LT(distance(force_of(ensemble, "hands"), {0, weight, 0}), 1e-4 * weight);
+    }
+}
+
+TEST_F(HandsTest, AHandBesideAPinBearsItsHalf) {
+    for (const char* const method : {"line", "explicit"}) {
+        SCOPED_TRACE(method);
+        SceneDescription scene = hung_up(method);
+        scene.cloths[0].pins = {{.particles = {{0, 0}, {0, 0}}}};
+        Ensemble ensemble({scene}, {.controls = {.hands = {0}}}, library_device());
+        const std::vector<double> hand(6);
+        const std::vector<std::int32_t> corner{16, 0, 16, 0};
+        ensemble.step({.hands = hand, .grasps = corner});
+        for (int frame = 0; frame < 200; ++frame) ensemble.step();
+        const double weight = 9.81 * ensemble.statistics(0)[0].mass;
+        const Vec3 pin = force_of(ensemble, "pins_0"), other = force_of(ensemble, "hands");
+        EXPECT_LT(distance({pin[0] + other[0], pin[1] + other[1], pin[2] + other[2]}, {0, weight, 0}), 1e-4 * weight);
+        // Among pins it is split as far as rounded positions tell the strain.
+        EXPECT_LT(distance(other, {-pin[0], pin[1], 0}), 3e-3 * weight);
+    }
+}
+
 /// What nobody uses changes no bit.
 TEST_F(HandsTest, IdleHandsChangeNoBit) {
     const std::vector<SceneDescription> members = drawn(scene_of(), 2, seed);

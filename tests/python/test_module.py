@@ -340,6 +340,35 @@ class Ensembles(Validated):
             together.step(holds=[True, False])
         np.testing.assert_array_equal(together.frames, [4, 4])
 
+    def test_what_a_member_was_told_is_a_scene(self):
+        scene = sheet(forces=True, wind={"velocity": [0, 0, 1]})
+        together = drape.Ensemble(scene, [{}, {"/cloths/0/areal_density": 0.3}], controls=["wind"], hands=1,
+                                  record=True, validate=True)
+        corner = together.positions()[1, -1, 0].astype(float)
+        frames = [(together.positions()[1].copy(), together.statistics(1))]
+        for frame in range(1, 8):
+            hands = np.stack([corner, corner + [0.003 * frame, 0, 0.1 / 3 * frame]])[:, None]
+            grasps = np.full((2, 1, 2), -1)
+            if 2 <= frame < 6:
+                grasps[1] = [0, 6]
+            together.step(hands=hands, grasps=grasps, **({"wind": np.full((2, 3), frame / 3)} if frame == 4 else {}))
+            frames.append((together.positions()[1].copy(), together.statistics(1)))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "told.json"
+            together.save_scene(path, 1)
+            replayed = drape.load(path)
+        simulation = drape.Simulation(replayed, validate=True)
+        for step, (positions, numbers) in zip(simulation, frames):
+            np.testing.assert_array_equal(step.positions(), positions)
+            forces = {name: value for name, value in numbers.items() if "force_" in name}
+            self.assertEqual({name: step.statistics[name] for name in forces}, forces)
+        self.assertEqual(simulation.statistics["given_hands_0_hold"], 0)
+        self.assertAlmostEqual(simulation.statistics["given_hands_0_translate_z_m"], corner[2] + 0.7 / 3)
+        self.assertEqual(simulation.statistics["given_wind_x_m_s"], 4 / 3)
+        self.assertEqual(simulation.validation_count, 0)
+        with self.assertRaisesRegex(drape.Error, "nothing is recorded"):
+            self.ensemble(sheet(), 1).save_scene("never.json")
+
     def test_bodies_are_told_and_pushed(self):
         scene = sheet(colliders={"spheres": [{"center": [5, 0, 0], "radius": 0.1, "mass": 0.5, "velocity": [0, 0, 1]}]})
         single = drape.Simulation(scene)
@@ -496,7 +525,11 @@ class Examples(unittest.TestCase):
         self.assertRegex(said, r"[1-9]\d* episodes ended, \d+ of them at the goal")
 
     def test_fold_towel(self):
-        said, _ = self.run_example("fold_towel.py", "24")
+        said, files = self.run_example("fold_towel.py", "24", "fold.json")
+        self.assertGreater(files["fold.json"], 5000)
+        pull, weight = map(float, re.search(r"at most (\S+) N; the towel weighs (\S+) N", said).groups())
+        self.assertAlmostEqual(weight, 0.3 * 0.4 * 0.4 * 9.81, places=2)
+        self.assertGreater(pull, weight / 4)
         found = re.search(r"laid (\S+) mm from .* lies (\S+) mm above the table", said)
         self.assertLess(float(found[1]), 0.01)
         self.assertLess(float(found[2]), 60)

@@ -85,6 +85,36 @@ TEST_P(ForcesTest, AnImpactGivesTheMomentumThatItTakes) {
     expect_near({0, given, 0}, {0, mass * (3 + 9.81 * frames * run.frame_time()), 0}, 1e-4, "an impact");
 }
 
+/// The last substep of a frame has the most of a pull that grows, and what rests bears the same in every substep.
+TEST_P(ForcesTest, TheWorstSubstepIsTold) {
+    SceneDescription scene = level_sheet(0.105, 3);
+    scene.worst_forces = true;
+    scene.colliders = {{Box{{0, 0, 0}, {0.5, 0.1, 0.5}}, 0.5}};
+    scene.cloths[0].loads = {test::pull({{0, 0}, {8, 8}}, std::vector<VectorKey>{{0, {}}, {10, {0, -2, 0}}})};
+    Simulated run(by_method(scene, GetParam(), 8));
+    run.frames(150);
+    const double substep = run.frame_time() / run.model().scene.solver.substeps, now = 150 * run.frame_time();
+    const Vec3 pull{0, -0.2 * (now - 0.5 * substep), 0};
+    expect_near(run.worst("loads"), pull, 1e-5, "the last substep's load");
+    expect_near(run.worst("collider_0_box"), {0, run.weight() - pull[1], 0}, 1e-4, "the box, in the worst substep");
+    EXPECT_LT(length(run.force("loads")), length(run.worst("loads")));
+}
+
+/// A floor stops level cloth within few substeps, so the peak is far above the mean, and no substep gives more than all
+/// of the frame.
+TEST_P(ForcesTest, ABlowHasAPeak) {
+    SceneDescription scene = level_sheet(0.02, 0);
+    scene.worst_forces = true;
+    scene.cloths[0].velocity = {0, -3, 0};
+    scene.colliders = {{Plane{}, 0.3}};
+    Simulated run(by_method(scene, GetParam(), 8));
+    run.frames(1);
+    const double substeps = run.model().scene.solver.substeps, mean = run.force("collider_0_plane")[1];
+    const double peak = run.worst("collider_0_plane")[1];
+    EXPECT_GE(peak, 2 * mean);
+    EXPECT_LE(peak, substeps * mean * (1 + 1e-6));
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, ForcesTest, testing::ValuesIn(all_methods),
                          [](const auto& each) { return std::string(named(each.param).name); });
 

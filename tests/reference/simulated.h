@@ -32,6 +32,7 @@ class Simulated {
     }
     Vec3 force(const std::string& by) { return of(by).force; }
     Vec3 moment(const std::string& by) { return of(by).moment.value(); }
+    Vec3 worst(const std::string& by) { return of(by).worst.value(); }
     double weight() { return statistics().mass * 9.81; }
     double frame_time() const { return 1 / model_.scene.time.fps; }
     const SimulationModel& model() const { return model_; }

@@ -87,6 +87,8 @@ const std::map<std::string_view, std::string> places{{"scene", ""},
                                                      {"mesh", ".colliders.meshes[0]"},
                                                      {"seam", ".seams[0]"},
                                                      {"seam_side", ".seams[0].a"},
+                                                     {"actions", ".actions"},
+                                                     {"frame_actions", ".actions.steps[0]"},
                                                      {"cutter", ".cutters[0]"},
                                                      {"solver", ".solver"},
                                                      {"camera", ".camera"},
@@ -278,7 +280,7 @@ TEST(SceneSchema, DocumentsTheDefaultsOfTheDescription) {
 
 TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
     const std::map<std::string_view, std::set<std::string>> without{
-        {"scene", {"$schema", "gravity_keys", "cloths", "camera"}},
+        {"scene", {"$schema", "gravity_keys", "cloths", "forces", "actions", "camera"}},
         {"wind", {"keys"}},
         {"wind_key", {"t", "velocity"}},
         {"gravity_key", {"t", "gravity"}},
@@ -306,6 +308,10 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"mesh", {"file", "shell", "spacing", "frames", "path"}},
         {"seam", {"a", "b"}},
         {"seam_side", {"cloth", "edge", "from", "to"}},
+        {"actions", {"controls", "hands", "steps"}},
+        {"frame_actions",
+         {"frame", "wind", "gravity", "pins", "colliders", "holds", "loads", "hands", "grasps", "body_forces",
+          "body_impulses", "body_velocities", "body_sets"}},
         {"cutter", {"triangle", "active", "path"}},
         {"solver", {"estimate_error"}},
         {"oracle", {"check"}}};

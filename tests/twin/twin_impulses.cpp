@@ -61,11 +61,37 @@ void run_momentum(const TwinPlace& where) {
         impulses.add(impulse_momentum, 0, momentum, push.sign * impulses.units());
         impulses.add(impulse_momentum, 3, moment_of_mass(xyz(position), position.w == 0.0f ? 0.0f : masses[i]),
                      push.sign * travel_units);
-        if (!splits_pins(scene.scene) || position.w != 0.0f || pins[i] == 0) continue;
+        if (!splits_pins(scene) || position.w != 0.0f || pins[i] == 0) continue;
         const ivec2 texel{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
         impulses.add(static_cast<int>(first_pin_row(scene.scene) + pins[i] - 1), 0, held_springs(where, texel),
                      impulses.units());
     }
+}
+
+void run_worst_impulses(const TwinPlace& where) {
+    std::vector<uint>& impulses = where.state.integers(Field::impulses);
+    const int rows = where.step.push<WorstImpulsesPush>().rows;
+    const auto at = [&](int row, int number) -> uint* {
+        return &impulses[static_cast<std::size_t>(row * impulse_columns + 2 * number)];
+    };
+    const auto words = [&](int row, int number) { return ImpulseWords{at(row, number)[0], at(row, number)[1]}; };
+    const auto added = [&](int row, int number) {
+        return words_difference(words(row, number), words(rows + row, number));
+    };
+    const auto put = [&](int row, int number, ImpulseWords value) {
+        at(row, number)[0] = value.low;
+        at(row, number)[1] = value.high;
+    };
+    for (int row = impulse_air; row < rows; ++row)
+        for (const int first : {0, 3}) {
+            const int worst = 2 * rows + row;
+            const float now = squared_impulse(added(row, first), added(row, first + 1), added(row, first + 2));
+            const float most = squared_impulse(words(worst, first), words(worst, first + 1), words(worst, first + 2));
+            for (int number = first; number < first + 3; ++number) {
+                if (now > most) put(worst, number, added(row, number));
+                put(rows + row, number, words(row, number));
+            }
+        }
 }
 
 void run_self_impulses(const TwinPlace& where) {
@@ -85,6 +111,7 @@ void run_self_impulses(const TwinPlace& where) {
 std::vector<TwinRow> twin_impulse_rows() {
     return {{StepKind::clear_impulses, run_clear_impulses},
             {StepKind::momentum, run_momentum},
+            {StepKind::worst_impulses, run_worst_impulses},
             {StepKind::self_impulses, run_self_impulses}};
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "drape/ensemble.h"
@@ -24,20 +25,20 @@ struct Told {
 };
 
 /// Returns the members' scenes: so many of the scene, or what each entry makes of it.
-std::vector<SceneDescription> scenes_of(const Scene& scene, const py::object& members) {
-    std::vector<SceneDescription> scenes;
+std::vector<Scene> scenes_of(const Scene& scene, const py::object& members) {
+    std::vector<Scene> scenes;
     if (py::isinstance<py::int_>(members)) {
         const auto count = py::cast<py::ssize_t>(members);
         if (count < 1) throw py::value_error("members: expected at least one");
-        scenes.assign(static_cast<std::size_t>(count), scene.description);
+        scenes.assign(static_cast<std::size_t>(count), scene);
         return scenes;
     }
     for (const py::handle member : py::iter(members)) {
         const auto object = py::reinterpret_borrow<py::object>(member);
         if (py::isinstance<Scene>(object))
-            scenes.push_back(py::cast<const Scene&>(object).description);
+            scenes.push_back(py::cast<const Scene&>(object));
         else if (py::isinstance<py::dict>(object))
-            scenes.push_back(changed(scene, py::cast<py::dict>(object)).description);
+            scenes.push_back(changed(scene, py::cast<py::dict>(object)));
         else
             throw py::type_error("members: expected how many, or a list with a dict or a Scene for each");
     }
@@ -53,35 +54,25 @@ EnsembleControls controls_of(const std::vector<std::string>& names, const SceneD
         for (const py::handle cloth : py::iter(hands))
             controls.hands.push_back(cloth_number(scene, py::reinterpret_borrow<py::object>(cloth)));
     for (const std::string& name : names) {
-        if (name == "wind")
-            controls.wind = true;
-        else if (name == "pins")
-            controls.pins = true;
-        else if (name == "colliders")
-            controls.colliders = true;
-        else if (name == "holds")
-            controls.holds = true;
-        else if (name == "gravity")
-            controls.gravity = true;
-        else if (name == "loads")
-            controls.loads = true;
-        else if (name == "bodies")
-            controls.bodies = true;
-        else
+        const auto* const found =
+            std::ranges::find(control_spellings, name, [](const auto& each) { return each.name; });
+        if (found == std::end(control_spellings))
             throw py::value_error("controls are wind, pins, colliders, holds, gravity, loads and bodies, not '" + name +
                                   "'");
+        controls.*found->value = true;
     }
     return controls;
 }
 
 class PyEnsemble {
   public:
-    PyEnsemble(const std::vector<SceneDescription>& scenes, const EnsembleOptions& options, const std::string& device,
-               bool validate)
-        : hand_count_(options.controls.hands.size()) {
+    PyEnsemble(std::vector<Scene> scenes, const EnsembleOptions& options, const std::string& device, bool validate)
+        : hand_count_(options.controls.hands.size()), scenes_(std::move(scenes)) {
         const py::gil_scoped_release released;
+        std::vector<SceneDescription> all;
+        for (const Scene& scene : scenes_) all.push_back(scene.description);
         device_.emplace(device, validation_if(validate));
-        ensemble_.emplace(scenes, options, *device_);
+        ensemble_.emplace(all, options, *device_);
     }
     Ensemble& ensemble() { return *ensemble_; }
     const Ensemble& ensemble() const { return *ensemble_; }
@@ -115,6 +106,13 @@ class PyEnsemble {
         const py::gil_scoped_release released;
         ensemble_->step(
             {wind, pins, colliders, holds, gravity, hands, grasps, loads, forces, impulses, velocities, sets});
+    }
+
+    /// Returns the scene of what a member was told so far.
+    std::string scene_of(std::size_t member) const {
+        const Scene& scene = scenes_.at(member);
+        return scene_with_actions(scene.source, ensemble_->recorded(member), ensemble_->frame(member), scene.overrides,
+                                  scene.folder);
     }
 
     std::vector<std::uint8_t> choices(const Choices& array, const char* name, std::size_t count) const {
@@ -165,6 +163,7 @@ class PyEnsemble {
 
   private:
     std::size_t hand_count_;
+    std::vector<Scene> scenes_;  ///< of the members
     std::optional<Device> device_;
     std::optional<Ensemble> ensemble_;
 };
@@ -238,10 +237,11 @@ py::array picture_of(const py::object& owner, std::size_t member) {
 
 std::unique_ptr<PyEnsemble> make(const py::object& scene, const py::object& members, const std::string& device,
                                  bool normals, const std::vector<std::string>& controls, const py::object& hands,
-                                 const std::string& shown, bool validate) {
+                                 const std::string& shown, bool record, bool validate) {
     const Scene first = any_scene(scene);
     EnsembleOptions options;
     options.normals = normals;
+    options.record = record;
     options.controls = controls_of(controls, first.description, hands);
     options.view = picture_view(shown, {});
     return std::make_unique<PyEnsemble>(scenes_of(first, members), options, device, validate);
@@ -294,14 +294,16 @@ void define_ensemble(py::module_& module) {
         .def(
             py::init(&make), py::arg("scene"), py::arg("members"), py::kw_only(), py::arg("device") = "",
             py::arg("normals") = false, py::arg("controls") = std::vector<std::string>(), py::arg("hands") = 0,
-            py::arg("view") = "shaded", py::arg("validate") = false,
+            py::arg("view") = "shaded", py::arg("record") = false, py::arg("validate") = false,
             "scene: a Scene, a path or a dict. members: how many of it, or a list with a dict {'/json/pointer': value} "
             "or a Scene for each; they differ in numbers, not in grids, pinned particles, kinds of colliders or the "
             "method. controls: what step() may be given: 'wind', 'pins', 'colliders', 'holds', 'gravity', 'loads', "
             "'bodies'. "
             "hands: how "
             "many "
-            "hands take particles of the first cloth, or the cloth of each. All begin at frame 0.")
+            "hands take particles of the first cloth, or the cloth of each. record: whether save_scene() can write "
+            "what members "
+            "were told. All begin at frame 0.")
         .def(
             "step",
             [](PyEnsemble& self, const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
@@ -348,6 +350,15 @@ void define_ensemble(py::module_& module) {
             "statistics",
             [](const PyEnsemble& self, std::size_t member) { return statistics(self.ensemble(), member); },
             py::arg("member"), "A dict of the frame's numbers, as Simulation.statistics.")
+        .def(
+            "save_scene",
+            [](const PyEnsemble& self, const py::object& path, std::size_t member) {
+                check_member(self.ensemble(), member);
+                py::module_::import("pathlib").attr("Path")(path).attr("write_text")(self.scene_of(member));
+            },
+            py::arg("path"), py::arg("member") = 0,
+            "Writes a scene file that is told what the member was told since its start, and so has its bits. Needs "
+            "record=True. Files that the member's scene names are looked for beside it.")
         .def("picture", &picture_of, py::arg("member"), "uint8 [height, width, 4], sRGB and 255: the member now.")
         .def_property_readonly(
             "obstacle", [](const PyEnsemble& self) { return self.ensemble().sharing_obstacle(); },

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -254,6 +255,33 @@ plot::Curve curve(const RunFolder& run, const std::string& name, const Line& lin
     return result;
 }
 
+/// Returns a curve for each force on a cloth that a run tells, of its magnitude: the mean of each frame, and the worst
+/// of its substeps.
+std::vector<plot::Curve> forces(const RunFolder& run, const std::string& before, bool dashed) {
+    constexpr std::pair<const char*, const char*> kinds[] = {{"/force_", ""}, {"/worst_force_", ", worst"}};
+    constexpr std::string_view x = "_x_n";
+    std::map<std::string, plot::Curve> curves;
+    for (const Json::Value& frame : run.manifest["statistics"])
+        for (const std::string& name : frame.getMemberNames())
+            for (const auto& [kind, addition] : kinds) {
+                const std::size_t at = name.find(kind);
+                if (at == std::string::npos || !name.ends_with(x)) continue;
+                const std::string stem = name.substr(0, name.size() - x.size());
+                const auto along = [&](const char* end) { return frame[stem + end].asDouble(); };
+                const std::string by = stem.substr(at + std::string_view(kind).size());
+                curves[name.substr(0, at) + ", " + by + addition].points.push_back(
+                    {time_of(run, frame["frame"]), std::hypot(along("_x_n"), along("_y_n"), along("_z_n"))});
+            }
+    std::vector<plot::Curve> all;
+    for (auto& [name, curve] : curves) {
+        curve.name = before + name;
+        curve.look = all.size();
+        curve.dashed = dashed;
+        all.push_back(std::move(curve));
+    }
+    return all;
+}
+
 /// Returns the plots over time, by their titles, in the order of `lines`; runs share them.
 std::vector<std::pair<std::string, std::string>> plots_of(const std::vector<RunFolder>& runs) {
     double last = 0;
@@ -277,6 +305,12 @@ std::vector<std::pair<std::string, std::string>> plots_of(const std::vector<RunF
             }
         if (!drawing.curves.empty()) plots.emplace_back(first->plot, plot::svg_of(drawing));
     }
+    plot::Plot drawing{
+        .title = "Forces on cloths", .x_label = "s", .y_label = "N", .logarithmic = false, .x_last = last};
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        for (plot::Curve& each : forces(runs[i], runs.size() == 1 ? "" : i == 0 ? "A " : "B ", i > 0))
+            drawing.curves.push_back(std::move(each));
+    if (!drawing.curves.empty()) plots.emplace_back(drawing.title, plot::svg_of(drawing));
     return plots;
 }
 

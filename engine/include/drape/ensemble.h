@@ -15,25 +15,12 @@
 
 namespace drape {
 
-/// Controls that steps of an ensemble may be given (EnsembleActions): what is not asked for costs nothing.
-struct EnsembleControls {
-    bool wind = false;       ///< scenes without wind then have it: at 0 m/s
-    bool pins = false;       ///< every pin may be moved
-    bool colliders = false;  ///< every collider may be moved
-    bool holds = false;      ///< every pin may let go and take again
-    bool gravity = false;    ///< gravity may change
-    bool loads = false;      ///< the loads of the scenes, which must have some, may change
-    /// Hands, which no scene has, may take particles: the cloth (by number) whose particles each can take. They hold
-    /// nothing at first.
-    std::vector<std::size_t> hands = {};
-    bool bodies = false;  ///< bodies that cloth moves may be pushed and thrown
-};
-
 struct EnsembleOptions {
     bool normals = false;
     EnsembleControls controls;
     Kernels kernels = Kernels::automatic();
-    PictureView view;  ///< of pictures
+    PictureView view;     ///< of pictures
+    bool record = false;  ///< keep what each member is told (`recorded`), of which saved states have theirs
 };
 
 /// Members are to do this in a step, all of them, in order. An empty list leaves that as it is: as the scene has it, or
@@ -93,9 +80,9 @@ struct MemberArray {
 
 class Ensemble {
   public:
-    /// All members are at frame 0, their start. Throws SceneFailure for what no scene may have, Error for members of
-    /// unlike shape, saying which differs and in what, and DeviceError, which tells how many fit, when they are too
-    /// many, before anything is allocated for them.
+    /// All members are at frame 0, their start. Throws SceneFailure for what no scene may have, Error for scenes with
+    /// `actions` of their own and for members of unlike shape, saying which differs and in what, and DeviceError, which
+    /// tells how many fit, when they are too many, before anything is allocated for them.
     explicit Ensemble(const std::vector<SceneDescription>& members, const EnsembleOptions& options = {},
                       const Device& device = Device());
     ~Ensemble();
@@ -136,6 +123,10 @@ class Ensemble {
     /// Returns a picture of a member by its scene's camera and size: rows from the top, sRGB, four bytes a pixel. It is
     /// valid until the next.
     std::span<const std::uint8_t> picture(std::size_t member);
+
+    /// Returns what a member was told since its start, of all its frames so far; a scene that has it as its `actions`
+    /// gives the same bits (`scene_with_actions`). Throws Error without EnsembleOptions::record.
+    SceneActions recorded(std::size_t member) const;
 
     /// Returns what a member needs to go on from here to the same bits.
     SimulationState save(std::size_t member) const;

@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "drape/actions.h"
 #include "drape/look.h"
 #include "drape/seam.h"
 #include "drape/solid.h"
@@ -427,6 +428,8 @@ struct SceneDescription {
     std::vector<Cutter> cutters;
     SolverSettings solver;
     bool forces = false;                                      ///< statistics tell what pulls and pushes each cloth
+    bool worst_forces = false;                                ///< and the largest of each in a substep
+    std::optional<SceneActions> actions;                      ///< what it is told on the way
     std::optional<Camera> camera;                             ///< without one picture/framing.h finds one
     std::vector<DirectionalLight> lights = default_lights();  ///< at most 4
     Vec3 ambient{0.36, 0.40, 0.47};                           ///< light of the sky, linear radiance factor 0..1

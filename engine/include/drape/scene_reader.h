@@ -78,6 +78,11 @@ SceneDescription parse_scene(std::string_view text);
 std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {},
                            const std::string& folder = {});
 
+/// Returns the JSON of a scene as `resolved_scene` does, with these actions and with frames 0 to `last`. Throws
+/// SceneFailure.
+std::string scene_with_actions(std::string_view text, const SceneActions& actions, std::uint32_t last,
+                               std::span<const std::string> overrides = {}, const std::string& folder = {});
+
 /// Returns the published JSON Schema (draft-07), committed as engine/scene/scene.schema.json.
 std::string scene_schema();
 

@@ -23,6 +23,8 @@ struct ForceOnCloth {
     std::string by;  ///< as in the names of the manifest's numbers: "gravity", "pins_0", "collider_2_sphere"
     std::array<double, 3> force{};                  ///< N
     std::optional<std::array<double, 3>> moment{};  ///< N m, of a collider, about its centre
+    /// N and N m: the largest in one of the frame's substeps, where the scene wants `worst_forces` and it is known.
+    std::optional<std::array<double, 3>> worst{}, worst_moment{};
 };
 
 /// Values are in SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """A gripper takes a towel by a corner, lays it over the opposite corner and lets go.
 
-    PYTHONPATH=build/python python3 tools/examples/python/fold_towel.py [FRAMES OF THE FOLD]
+    PYTHONPATH=build/python python3 tools/examples/python/fold_towel.py [FRAMES OF THE FOLD [SCENE]]
+
+SCENE is a file to write: the towel with all that the gripper did. `drape render` makes its pictures, `drape report` its
+force plot.
 """
 import sys
 
@@ -12,6 +15,7 @@ FRAMES = int(sys.argv[1]) if len(sys.argv) > 1 else 90
 
 TOWEL = {
     "name": "towel on a table",
+    "forces": True,
     "time": {"fps": 60, "frames": 2},  # an ensemble goes on as long as it is stepped
     "cloths": [{
         "name": "towel",
@@ -31,12 +35,15 @@ TOWEL = {
 HELD = [0, 0, 1, 1]  # first and last column and row: four particles at a corner
 NOTHING = [-1, -1, -1, -1]
 
-table = drape.Ensemble(TOWEL, 1, hands=1)  # a robot that learns has many members
+table = drape.Ensemble(TOWEL, 1, hands=1, record=True)  # a robot that learns has many members
+pull = []  # N, of the hand on the towel
 
 
 def step(hand, grasp):
     """Moves the only hand of the only member there, in a sixtieth of a second."""
     table.step(hands=[[hand]], grasps=[[grasp]])
+    numbers = table.statistics(0)
+    pull.append([numbers[f"towel/force_hands_{axis}_n"] for axis in "xyz"])
 
 
 def area_seen_from_above():
@@ -60,6 +67,11 @@ for _ in range(30):
 
 lies = table.positions()[0, 0, 0]
 failures = table.failures
+numbers = table.statistics(0)
+if len(sys.argv) > 2:
+    table.save_scene(sys.argv[2])
 print(f"{table.device}: the corner was laid {1000 * np.linalg.norm(laid - goal):.2f} mm from where it was to go and lies "
       f"{1000 * lies[1]:.1f} mm above the table")
+print(f"the gripper pulled with at most {np.linalg.norm(pull, axis=1).max():.2f} N; the towel weighs "
+      f"{-numbers['towel/force_gravity_y_n']:.2f} N")
 print(f"the towel covers {100 * area_seen_from_above() / area:.0f} % of what it did; {failures or 'nothing failed'}")
