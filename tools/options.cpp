@@ -262,9 +262,18 @@ void add_image_options(CLI::App& command, SceneRequest& scene) {
     add_view_options(command, scene.view);
     add_choice(command, "--samples", {"1", "4"}, "Samples per pixel; default: the scene's, else 4",
                [&scene](std::size_t place) { scene.samples = place == 0 ? 1 : 4; });
+    add_option(
+        command, "--motion-blur", "N",
+        "Draw each picture at N moments, 1 to 256, of half the time from frame to frame, and take their mean: N times "
+        "as long; default: the scene's, else 1",
+        [&scene](const std::string& text) {
+            scene.motion_blur = parse_whole(text, 1, 256);
+            return scene.motion_blur ? std::string()
+                                     : fmt::format("expected a whole number from 1 to 256, got '{}'", text);
+        });
     add_flag(command, "--draft",
-             "Pictures of half the scene's width and height with one sample per pixel, unless --size or --samples say "
-             "otherwise: about four times as fast to draw",
+             "Pictures of half the scene's width and height with one sample per pixel and no motion blur, unless "
+             "--size, --samples or --motion-blur say otherwise: about four times as fast to draw",
              scene.draft);
 }
 

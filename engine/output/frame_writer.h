@@ -71,6 +71,7 @@ struct WrittenFrame {
     std::vector<std::span<const float>> velocities;       ///< per cloth: x y z (m/s) and 0 per particle
     std::vector<std::span<const std::int16_t>> contacts;  ///< per cloth: the collider that a particle touches, or -1
     FrameValues values;
+    std::span<const LayerPixel> layers = {};  ///< of the picture's size, rows from the top
 };
 
 /// Writes the frames of a run into its folder; for use by one thread. Every member throws OutputError. Files appear
@@ -113,7 +114,8 @@ struct OutputFormat {
     std::string_view name;     ///< value of --export
     std::string_view files;    ///< "positions.npy": with one cloth; FRAME stands for at least four digits
     std::string_view holds;    ///< describes the contents
-    bool draws = false;        ///< needs WrittenFrame::rgba; otherwise it needs positions
+    bool draws = false;        ///< needs WrittenFrame::rgba
+    bool layers = false;       ///< needs WrittenFrame::layers; with neither it needs positions
     bool details = false;      ///< needs velocities and contacts
     bool resumes = false;      ///< its files name their run (kept_frames.h); files of other formats are written again
     bool is_archive = false;   ///< its file is a ZIP archive, which may be packed

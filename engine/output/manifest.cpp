@@ -56,6 +56,25 @@ Json::Value frames_json(const Manifest::Frames& frames) {
     return json;
 }
 
+Json::Value picture_json(const Manifest::Picture& picture) {
+    Json::Value json;
+    json["width"] = picture.width;
+    json["height"] = picture.height;
+    json["samples"] = picture.samples;
+    if (!picture.view.empty()) json["view"] = picture.view;
+    if (picture.strain_range > 0) json["strain_range"] = picture.strain_range;
+    if (picture.motion_blur > 1) json["motion_blur"] = picture.motion_blur;
+    if (!picture.camera) return json;
+    const auto vector = [&json](const char* name, const Vec3& value) {
+        for (const double part : value) json["camera"][name].append(number(part, name));
+    };
+    vector("position", picture.camera->position);
+    vector("target", picture.camera->target);
+    vector("up", picture.camera->up);
+    json["camera"]["fov"] = picture.camera->fov;
+    return json;
+}
+
 Json::Value files_json(const std::vector<FileRecord>& files) {
     Json::Value array(Json::arrayValue);
     for (const FileRecord& file : files) {
@@ -272,13 +291,7 @@ Json::Value frameless_json(const Manifest& manifest) {
     json["scene"] = scene_json(manifest.scene);
     json["device"] = device_json(manifest.device);
     json["frames"] = frames_json(manifest.frames);
-    if (manifest.picture) {
-        json["picture"]["width"] = manifest.picture->width;
-        json["picture"]["height"] = manifest.picture->height;
-        json["picture"]["samples"] = manifest.picture->samples;
-        if (!manifest.picture->view.empty()) json["picture"]["view"] = manifest.picture->view;
-        if (manifest.picture->strain_range > 0) json["picture"]["strain_range"] = manifest.picture->strain_range;
-    }
+    if (manifest.picture) json["picture"] = picture_json(*manifest.picture);
     json["run_key"] = manifest.run_key;
     json["solver"] = solver_json(manifest.solver);
     json["validation"]["enabled"] = manifest.validation.enabled;

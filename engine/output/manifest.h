@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "drape/error.h"
+#include "drape/look.h"
 #include "drape/momenta.h"
 #include "output/atomic_file.h"
 #include "output/kept_frames.h"
@@ -48,9 +49,11 @@ struct Manifest {
     struct Picture {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
-        std::uint32_t samples = 0;  // per pixel
-        std::string view;           // name of the view, unless it shows what a camera would
-        double strain_range = 0;    // strain at the end of a heat map; 0: no heat map
+        std::uint32_t samples = 0;      // per pixel
+        std::string view;               // name of the view, unless it shows what a camera would
+        double strain_range = 0;        // strain at the end of a heat map; 0: no heat map
+        std::optional<Camera> camera;   // one that stands still
+        std::uint32_t motion_blur = 1;  // moments that a picture is the mean of
     };
     struct Solver {
         std::string method;   // in use
@@ -125,7 +128,7 @@ struct Manifest {
     Scene scene;
     Device device;
     Frames frames;
-    std::optional<Picture> picture;  // nothing when no picture was drawn
+    std::optional<Picture> picture;  // nothing when neither pictures nor layers were made
     Solver solver;
     Validation validation;
     std::vector<Skipped> skipped;

@@ -9,12 +9,15 @@
 namespace drape {
 
 extern const OutputFormat png_format, npy_format, npz_format, pc2_format, obj_format, ply_format, usda_format,
-    vtu_format, y4m_format, rgb_format, mgn_format;
+    vtu_format, y4m_format, rgb_format, mgn_format, depth_format, normal_format, id_format, strain_format,
+    depth16_format, normal16_format, id16_format, strain16_format;
 
 namespace {
 
-constexpr const OutputFormat* table[] = {&png_format,  &npy_format, &npz_format, &pc2_format, &obj_format, &ply_format,
-                                         &usda_format, &vtu_format, &mgn_format, &y4m_format, &rgb_format};
+constexpr const OutputFormat* table[] = {
+    &png_format,    &npy_format,     &npz_format,      &pc2_format,  &obj_format,     &ply_format,    &usda_format,
+    &vtu_format,    &mgn_format,     &y4m_format,      &rgb_format,  &depth_format,   &normal_format, &id_format,
+    &strain_format, &depth16_format, &normal16_format, &id16_format, &strain16_format};
 
 /// Returns what stands between the two; nothing when the name does not begin and end so.
 std::optional<std::string_view> middle(std::string_view name, std::string_view begin, std::string_view end) {

@@ -17,4 +17,9 @@ enum class PngAlpha { dropped, kept };
 void encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                 std::vector<std::uint8_t>& png, const std::string& text = {}, PngAlpha alpha = PngAlpha::dropped);
 
+// Encodes 16-bit values, rows tightly packed from the top, of one channel (grey) or three (RGB), that are numbers and
+// no colours. Throws as encode_png does.
+std::vector<std::uint8_t> encode_png16(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
+                                       std::span<const std::uint16_t> values);
+
 }  // namespace drape

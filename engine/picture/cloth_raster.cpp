@@ -34,10 +34,38 @@ void ClothRaster::fit(const vulkan::Device& device, const SceneDescription& scen
                       const std::vector<CutTopology>& topologies) {
     const bool cut = std::ranges::any_of(topologies, [](const CutTopology& t) { return !t.vertices().empty(); });
     const bool masked = std::ranges::any_of(topologies, &CutTopology::masked);
-    if (pass_ && cut == cut_ && masked == masked_) return;
-    pass_ = std::make_unique<RasterPass>(device, scene, options.width, options.height, options.samples,
-                                         RasterOptions{.view = options.view, .cut = cut, .masked = masked});
+    if (*this && cut == cut_ && masked == masked_) return;
+    if (options.color)
+        picture_ = std::make_unique<RasterPass>(device, scene, options.width, options.height, options.samples,
+                                                RasterOptions{.view = options.view, .cut = cut, .masked = masked});
+    if (options.layers)
+        layers_ = std::make_unique<LayerPass>(device, scene, options.width, options.height, cut, masked);
     cut_ = cut, masked_ = masked;
+}
+
+void ClothRaster::add(graph::Graph& graph, std::span<const RasterCloth> cloths) const {
+    if (picture_) picture_->add(graph, cloths);
+    if (layers_) layers_->add(graph, cloths);
+}
+
+void ClothRaster::upload(const graph::ResourcePool& pool) const {
+    if (picture_) picture_->upload(pool);
+    if (layers_) layers_->upload(pool);
+}
+
+void ClothRaster::write_frame(const graph::ResourcePool& pool, std::uint32_t slot, double time,
+                              std::span<const BodyState> moved) const {
+    if (picture_) picture_->write_frame(pool, slot, time, moved);
+    if (layers_) layers_->write_frame(pool, slot, time, moved);
+}
+
+void ClothRaster::read(const graph::ResourcePool& pool, std::uint32_t slot, FinishedFrame& frame) const {
+    if (layers_) frame.layers = layers_->pixels(pool, slot);
+    if (!picture_) return;
+    const std::span<std::byte> bytes =
+        pool.buffer(RasterPass::readback_name, slot).mapped().first(picture_->readback_byte_count());
+    picture_->finish(bytes);
+    frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace drape

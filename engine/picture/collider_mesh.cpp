@@ -166,15 +166,18 @@ std::vector<glsl::MeshCorner> mesh_corners(const std::vector<Collider>& collider
 }
 
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
-                                                       const PlaneExtent& extent, double time) {
+                                                       const PlaneExtent& extent, double time,
+                                                       std::span<const std::uint16_t> ids) {
     std::vector<glsl::ColliderInstance> instances;
     for (const int kind : drawing_order)
-        for (const Collider& collider : colliders) {
+        for (std::size_t i = 0; i < colliders.size(); ++i) {
+            const Collider& collider = colliders[i];
             if (collider.kind() != kind) continue;
             instances.push_back(special(collider.shape).plane
                                     ? plane_instance(collider, extent, time)
                                     : instance(collider_pose(collider, time),
                                                vec4(shape_geometry(collider.shape).size, 0), collider.color));
+            if (!ids.empty()) instances.back().color.w = ids[i];
         }
     return instances;
 }

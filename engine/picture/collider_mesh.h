@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "drape/scene.h"
@@ -55,8 +56,10 @@ struct PlaneExtent {
 /// Returns the pose in which a plane is drawn: y is its normal, x and z run along the grid's lines.
 ColliderPose plane_pose(const Collider& plane, double time);
 
-/// Returns the instances in the order in which `collider_draws` counts them, with poses at `time` (s).
+/// Returns the instances in the order in which `collider_draws` counts them, with poses at `time` (s). `ids`: of the
+/// colliders, for layers.
 std::vector<glsl::ColliderInstance> collider_instances(const std::vector<Collider>& colliders,
-                                                       const PlaneExtent& extent, double time);
+                                                       const PlaneExtent& extent, double time,
+                                                       std::span<const std::uint16_t> ids = {});
 
 }  // namespace drape

@@ -25,6 +25,16 @@ std::vector<Collider> DrawnBodies::at(double time, std::span<const BodyState> mo
     return bodies;
 }
 
+std::vector<std::uint16_t> DrawnBodies::ids(std::size_t cloth_count) const {
+    std::vector<std::uint16_t> ids;
+    for (std::size_t i = 0; i < colliders_.size(); ++i) {
+        const std::size_t number = i + (left_out_ && i >= *left_out_ ? 1 : 0);
+        ids.push_back(static_cast<std::uint16_t>(std::min<std::size_t>(cloth_count + 1 + number, fixture_id - 1)));
+    }
+    ids.resize(count(), fixture_id);
+    return ids;
+}
+
 RoundColumns DrawnBodies::columns(const FrameView& view, double end, std::uint32_t height) const {
     constexpr int moments = 64;
     RoundColumns columns{};

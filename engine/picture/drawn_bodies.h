@@ -22,6 +22,8 @@ class DrawnBodies {
     std::size_t count() const { return colliders_.size() + fixtures_.size(); }
     /// Returns the colliders and then the fixtures at `time` (s). `moved`: where bodies that cloth moves are.
     std::vector<Collider> at(double time, std::span<const BodyState> moved = {}) const;
+    /// Returns their ids in layers (LayerPixel::id), in the same order, of a scene of so many cloths.
+    std::vector<std::uint16_t> ids(std::size_t cloth_count) const;
     /// Returns the columns for the largest bodies of each kind, examined at some times until `end` (s).
     RoundColumns columns(const FrameView& view, double end, std::uint32_t height) const;
 

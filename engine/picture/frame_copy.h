@@ -14,6 +14,8 @@ class FrameCopy {
         frame_ = frame;
         rgba_.assign(frame.rgba.begin(), frame.rgba.end());
         frame_.rgba = rgba_;
+        layers_.assign(frame.layers.begin(), frame.layers.end());
+        frame_.layers = layers_;
         keep(frame.positions, positions_, frame_.positions);
         keep(frame.velocities, velocities_, frame_.velocities);
         keep(frame.normals, normals_, frame_.normals);
@@ -34,6 +36,7 @@ class FrameCopy {
 
     FinishedFrame frame_;
     std::vector<std::uint8_t> rgba_;
+    std::vector<LayerPixel> layers_;
     Arrays positions_, velocities_, normals_;
 };
 

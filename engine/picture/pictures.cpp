@@ -40,7 +40,7 @@ void Pictures::build() {
     solver_.declare(graph_, {.drawing = true});
     solver_.add_positions(graph_);
     solver_.add_normals(graph_);
-    raster_->add(graph_, raster_cloths(model_, solver_.cloths()));
+    raster_.add(graph_, raster_cloths(model_, solver_.cloths()));
     plan_ = graph::make_plan(graph_);
 }
 
@@ -50,7 +50,7 @@ void Pictures::allocate() {
     const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph_, &plan_}};
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans);
     upload_start(solver_.layout(), *pool_);
-    raster_->upload(*pool_);
+    raster_.upload(*pool_);
     record();
 }
 
@@ -89,15 +89,44 @@ std::optional<std::uint32_t> Pictures::free_slot() const {
 }
 
 void Pictures::begin(PendingPicture& picture, std::uint32_t slot) {
-    const FinishedFrame& frame = picture.frame.frame();
+    submit(picture.frame.frame(), slot, options_.motion_blur - 1);
+    picture.slot = slot;
+}
+
+void Pictures::submit(const FinishedFrame& frame, std::uint32_t slot, std::uint32_t moment) {
+    const double fps = model_.scene.time.fps, ago = open_shutter / fps * moment / options_.motion_blur;
     for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
-        const std::span<const std::byte> bytes = std::as_bytes(frame.positions[cloth]);
+        std::vector<float> before;
+        if (moment > 0) before = positions_before(frame.positions[cloth], frame.velocities[cloth], ago);
+        const auto bytes = std::as_bytes(moment > 0 ? std::span<const float>(before) : frame.positions[cloth]);
         std::memcpy(pool_->buffer(position_upload_name(model_.cloths[cloth]), slot).mapped().data(), bytes.data(),
                     bytes.size());
     }
-    raster_->write_frame(*pool_, slot, frame.frame / model_.scene.time.fps, frame.bodies);
+    raster_.write_frame(*pool_, slot, frame.frame / fps - ago, bodies_before(frame.bodies, ago));
     slots_.submit(slot, recorded_->commands(slot));
-    picture.slot = slot;
+}
+
+void Pictures::add_timings(FinishedFrame& frame, std::uint32_t slot) const {
+    for (graph::Timing& timing : recorded_->timings(slot)) {
+        const auto known = std::ranges::find(frame.timings, timing.name, &StageTime::name);
+        if (known == frame.timings.end())
+            frame.timings.push_back({std::move(timing.name), timing.milliseconds});
+        else
+            known->milliseconds += timing.milliseconds;
+    }
+}
+
+void Pictures::blur(FinishedFrame& frame, std::uint32_t slot) {
+    mean_.clear();
+    mean_.add(frame.rgba);
+    for (std::uint32_t moment = options_.motion_blur - 1; moment-- > 0;) {
+        submit(frame, slot, moment);
+        slots_.wait(slot);
+        raster_.read(*pool_, slot, frame);
+        add_timings(frame, slot);
+        mean_.add(frame.rgba);
+    }
+    frame.rgba = mean_.mean();
 }
 
 void Pictures::begin_waiting() {
@@ -113,12 +142,11 @@ FinishedFrame Pictures::drawn(const PendingPicture& picture) {
     const std::uint32_t slot = *picture.slot;
     slots_.wait(slot);
     FinishedFrame frame = picture.frame.frame();
+    raster_.read(*pool_, slot, frame);
+    add_timings(frame, slot);
+    if (options_.motion_blur > 1) blur(frame, slot);
     if (!options_.positions) frame.positions.clear();
-    for (graph::Timing& timing : recorded_->timings(slot))
-        frame.timings.push_back({std::move(timing.name), timing.milliseconds});
-    const std::span<std::byte> bytes = pool_->buffer(RasterPass::readback_name, slot).mapped();
-    raster_->finish(bytes.first(raster_->readback_byte_count()));
-    frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster_->readback_byte_count()};
+    if (!options_.velocities) frame.velocities.clear();
     return frame;
 }
 

@@ -1,5 +1,6 @@
 // Draws pictures on a device of its own while another one simulates the next frames (Device::for_scene). It receives
-// positions alone, and computes normals and the cut triangles to draw as the simulating device would.
+// positions alone, for motion blur velocities too, and computes normals and the cut triangles to draw as the simulating
+// device would.
 #pragma once
 
 #include <deque>
@@ -10,6 +11,7 @@
 
 #include "picture/cloth_raster.h"
 #include "picture/frame_copy.h"
+#include "picture/motion_blur.h"
 #include "picture/picture_options.h"
 
 namespace drape {
@@ -50,6 +52,11 @@ class Pictures {
     /// Begins to draw as many waiting frames as there are free slots.
     void begin_waiting();
     void begin(PendingPicture& picture, std::uint32_t slot);
+    /// Begins to draw a frame as it is, or as it was at a moment while the shutter was open: 0 is the frame's own.
+    void submit(const FinishedFrame& frame, std::uint32_t slot, std::uint32_t moment);
+    /// Has the frame show the mean of all moments, of which the slot has drawn the first.
+    void blur(FinishedFrame& frame, std::uint32_t slot);
+    void add_timings(FinishedFrame& frame, std::uint32_t slot) const;
     /// Returns the frame that a slot has drawn; the picture is in the slot's buffer.
     FinishedFrame drawn(const PendingPicture& picture);
     bool is_there(const PendingPicture& picture) const;
@@ -67,6 +74,7 @@ class Pictures {
     std::unique_ptr<graph::RecordedPlan> recorded_;
     vulkan::FrameSlots slots_;  ///< destroyed first: it waits for submits that use what is above
     std::size_t most_pending_;
+    PictureMean mean_;
     std::deque<PendingPicture> pending_;  ///< in order
 };
 

@@ -110,7 +110,7 @@ FolderRun::FolderRun(const RunRequest& request, const std::optional<Device>& dev
     check_formats(request, scene());
     if (!request.stream) folder_.emplace(request.output, request.existing);
     if (folder_) expect_room(*folder_, request, scene(), planned_.range);
-    if (!device_) device_ = device_of(request.scene, scene(), request.draws());
+    if (!device_) device_ = device_of(request.scene, scene(), request.draws() || request.layers());
     planned_.key = key_of(request, planned_.scene, device_->info());
     planned_.missing = missing_frames(folder_, request, planned_.range, planned_.key);
     summary_.kept_count = planned_.missing.kept.size();
@@ -131,6 +131,7 @@ void FolderRun::warn(const std::string& text) {
 SimulationOptions FolderRun::options() {
     SimulationOptions options =
         simulation_options(request_.scene, request_.draws(), needs_positions(request_), request_.details());
+    options.layers = request_.layers();
     options.keep_promises = !request_.keep_failed;
     options.on_cut = [this](const Cut& cut) { sink_->add_cut(cut); };
     options.on_attempt = [this](const FrameAttempt& attempt) {

@@ -69,7 +69,8 @@ void Sink::add(const FinishedFrame& frame) {
                                frame.positions,
                                frame.velocities,
                                {contacts.begin(), contacts.end()},
-                               frame_values(scene_, frame)};
+                               frame_values(scene_, frame),
+                               frame.layers};
     write(written);
     if (journal_) {
         JournalRecord record{.frame = frame.frame, .values = written.values};

@@ -33,12 +33,13 @@ void check_formats(const RunRequest& request, const SceneDescription& scene) {
 
 bool needs_positions(const RunRequest& request) {
     return std::ranges::any_of(output_formats(request.formats),
-                               [](const OutputFormat* format) { return !format->draws; });
+                               [](const OutputFormat* format) { return !format->draws && !format->layers; });
 }
 
 bool needs_every_picture(const RunRequest& request) {
-    return std::ranges::any_of(output_formats(request.formats),
-                               [](const OutputFormat* format) { return format->draws && !format->resumes; });
+    return std::ranges::any_of(output_formats(request.formats), [](const OutputFormat* format) {
+        return (format->draws || format->layers) && !format->resumes;
+    });
 }
 
 MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const RunRequest& request,

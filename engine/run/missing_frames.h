@@ -22,7 +22,7 @@ struct MissingFrames {
 /// Throws UsageError when a format cannot be written as requested, or cannot hold what the scene has.
 void check_formats(const RunRequest& request, const SceneDescription& scene);
 bool needs_positions(const RunRequest& request);
-/// Returns whether some format needs every picture, including those of kept frames.
+/// Returns whether some format needs every picture or its layers, including those of kept frames.
 bool needs_every_picture(const RunRequest& request);
 MissingFrames missing_frames(const std::optional<OutputFolder>& folder, const RunRequest& request,
                              const FrameRange& range, const std::string& key);

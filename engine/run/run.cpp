@@ -96,10 +96,11 @@ LoadedScene loaded_scene(const SceneRequest& request, SceneResult result) {
     ImageSettings& image = loaded.description.image;
     if (request.draft) {
         for (std::uint32_t& side : image.size) side = std::max(1u, side / 2);
-        image.samples = 1;
+        image.samples = image.motion_blur = 1;
     }
     if (request.image_size) image.size = *request.image_size;
     if (request.samples) image.samples = *request.samples;
+    if (request.motion_blur) image.motion_blur = *request.motion_blur;
     return loaded;
 }
 
@@ -124,6 +125,8 @@ std::string key_of(const RunRequest& request, const LoadedScene& scene, const De
     const ImageSettings& image = scene.description.image;
     parts.push_back(request.draws() ? fmt::format("picture {}x{} {}", image.size[0], image.size[1], image.samples)
                                     : "arrays");
+    if (request.draws() && image.motion_blur > 1) parts.push_back(fmt::format("blur {}", image.motion_blur));
+    if (request.layers()) parts.push_back(fmt::format("layers {}x{}", image.size[0], image.size[1]));
     const PictureView& view = request.scene.view;
     if (request.draws() && view.kind != View::shaded)
         parts.push_back(fmt::format("{} {}", spelling(view_spellings, view.kind), view.range));
@@ -151,6 +154,10 @@ const char* program_version() { return DRAPE_VERSION; }
 
 bool RunRequest::draws() const {
     return std::ranges::any_of(output_formats(formats), [](const OutputFormat* format) { return format->draws; });
+}
+
+bool RunRequest::layers() const {
+    return std::ranges::any_of(output_formats(formats), [](const OutputFormat* format) { return format->layers; });
 }
 
 bool RunRequest::details() const {

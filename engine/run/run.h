@@ -32,7 +32,9 @@ struct SceneRequest {
     std::vector<std::string> overrides;  ///< "/json/pointer=value"
     std::optional<std::array<std::uint32_t, 2>> image_size;
     std::optional<std::uint32_t> samples;
-    bool draft = false;  ///< pictures of half the width and height, of one sample, where nothing else is said
+    std::optional<std::uint32_t> motion_blur;
+    /// Pictures of half the width and height, of one sample, without motion blur, where nothing else is said.
+    bool draft = false;
     PictureView view;
     std::string device;     ///< a selector of Device; may be empty
     bool validate = false;  ///< core and synchronization validation
@@ -63,6 +65,7 @@ struct RunRequest {
     std::function<void()> saving;  ///< called before a checkpoint is written
 
     bool draws() const;    ///< some format needs pictures
+    bool layers() const;   ///< some format needs layers of pictures
     bool details() const;  ///< some format needs velocities and contacts
 };
 

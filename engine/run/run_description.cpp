@@ -8,6 +8,7 @@
 
 #include "graph/dump.h"
 #include "output/json_text.h"
+#include "picture/framing.h"
 #include "picture/strain_scale.h"
 #include "run/given_values.h"
 #include "run/written_colliders.h"
@@ -24,6 +25,8 @@ std::string resolved_text(const SceneRequest& request, const LoadedScene& loaded
     if (request.image_size || request.draft)
         overrides.push_back(fmt::format("/image/size=[{},{}]", image.size[0], image.size[1]));
     if (request.samples || request.draft) overrides.push_back(fmt::format("/image/samples={}", image.samples));
+    if (request.motion_blur || request.draft)
+        overrides.push_back(fmt::format("/image/motion_blur={}", image.motion_blur));
     std::istringstream text(resolved_scene(loaded.text, overrides, scene_folder(request.path)));
     Json::Value value;
     text >> value;
@@ -54,7 +57,10 @@ std::string run_parameters(const SceneDescription& scene, const Manifest& manife
 }
 
 Manifest::Picture picture_of(const SceneDescription& scene, const PictureView& view) {
-    Manifest::Picture picture{scene.image.size[0], scene.image.size[1], scene.image.samples, {}, 0};
+    const auto& [width, height] = scene.image.size;
+    Manifest::Picture picture{width, height, scene.image.samples, {}, 0, {}};
+    if (const Camera camera = picture_camera(scene, width, height); camera.keys.empty()) picture.camera = camera;
+    picture.motion_blur = scene.image.motion_blur;
     if (view.kind != View::shaded) picture.view = spelling(view_spellings, view.kind);
     if (const auto scale = strain_scale(view, scene)) picture.strain_range = scale->high;
     return picture;
@@ -86,7 +92,7 @@ Manifest describe_run(const RunRequest& request, const LoadedScene& loaded, cons
     manifest.scene = {request.scene.path, scene.name, loaded.hash, request.scene.overrides};
     manifest.device = {device.name, device.driver, device.driver_version, device.api_version, device.uuid_text()};
     manifest.frames = {range.start, range.end, range.step, range.count(), scene.time.fps};
-    if (request.draws()) manifest.picture = picture_of(scene, request.scene.view);
+    if (request.draws() || request.layers()) manifest.picture = picture_of(scene, request.scene.view);
     const bool chosen = facts.asked_method != facts.method;
     manifest.solver = {facts.method,
                        facts.kernels,

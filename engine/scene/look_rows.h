@@ -80,6 +80,10 @@ inline const Object<ImageSettings> image{
         {"blades", &ImageSettings::blades, boolean(), "Whether cutters are drawn while they are active."},
         {"alpha", &ImageSettings::alpha, boolean(),
          "Whether pictures have an alpha channel, and neither backdrop nor floor."},
+        {"motion_blur", &ImageSettings::motion_blur, integer(1, 256),
+         "Moments at which each picture is drawn, spread over half the time from frame to frame, up to the frame's "
+         "own: "
+         "it is their mean in linear light, and takes as many times as long. 1: no blur."},
     }};
 
 }  // namespace drape::rows

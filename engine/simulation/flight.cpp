@@ -99,7 +99,7 @@ void FlightInputs::write(FrameGraphs& graphs, std::uint32_t slot, const Flight& 
     const std::uint32_t frame = flight.work().frame;
     if (flight.jobs.front().searches)
         write_cutters(graphs.joint().scene, graphs.pool(), slot, frame == 0 ? 0 : (frame - 1) / fps, frame / fps);
-    if (flight.contents.hands_out && graphs.raster()) graphs.raster()->write_frame(graphs.pool(), slot, frame / fps);
+    if (flight.contents.hands_out && graphs.raster()) graphs.raster().write_frame(graphs.pool(), slot, frame / fps);
 }
 
 void FlightInputs::write_frame(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight) {
@@ -179,12 +179,7 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
         if (work.known) frame.timings = work.known->timings;
         frame.timings.insert(frame.timings.end(), result.timings.begin(), result.timings.end());
         const bool wanted = hands_out && flight.jobs[place].wanted;
-        if (wanted && options.draw) {
-            ClothRaster& raster = graphs.raster();
-            const std::span<std::byte> bytes = graphs.pool().buffer(RasterPass::readback_name, slot).mapped();
-            raster->finish(bytes.first(raster->readback_byte_count()));
-            frame.rgba = {reinterpret_cast<const std::uint8_t*>(bytes.data()), raster->readback_byte_count()};
-        }
+        if (wanted && options.draw) graphs.raster().read(graphs.pool(), slot, frame);
         if (wanted && body_count(graphs.joint()) > 0)
             frame.bodies = body_states(graphs.member_at(flight.members[place], flight.contents.substeps),
                                        read_bodies(graphs, slot, flight.members[place] * each), work.frame);

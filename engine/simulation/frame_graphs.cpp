@@ -138,7 +138,7 @@ PlannedGraph FrameGraphs::plan(const FrameContents& contents) {
 /// Adds the passes that make pictures and arrays of the state.
 void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (options_.draw || options_.normals) solver_.add_normals(graph);
-    if (options_.draw) raster_->add(graph, raster_cloths(*joint_, solver_.cloths()));
+    if (options_.draw) raster_.add(graph, raster_cloths(*joint_, solver_.cloths()));
     if (body_count(*joint_) > 0) solver_.add_body_readback(graph);
     if (options_.normals) solver_.add_readback(graph, Field::normal, "normal");
     if (options_.positions) solver_.add_readback(graph, Field::position, "position");
@@ -164,7 +164,7 @@ void FrameGraphs::allocate() {
     pool_.reset();
     pool_ = std::make_unique<graph::ResourcePool>(device_, plans());
     upload_start(solver_.layout(), *pool_);
-    if (raster_) raster_->upload(*pool_);
+    raster_.upload(*pool_);
 }
 
 void FrameGraphs::rebuild(const SimulationState& state) {

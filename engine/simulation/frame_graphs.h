@@ -18,9 +18,8 @@
 namespace drape {
 
 struct FrameOptions : PictureOptions {
-    bool draw = true;           ///< draw colour images
+    bool draw = true;           ///< draw what PictureOptions says
     bool draws_beside = false;  ///< they are drawn by another device (pictures.h)
-    bool velocities = false;    ///< hand out arrays of velocities, which needs statistics
     bool arrays_later = false;  ///< the receiver takes or computes arrays from what was read back
     bool normals = false;       ///< hand out arrays of normals
     bool statistics = false;    ///< compute statistics of every frame that is handed out

@@ -88,7 +88,9 @@ constexpr graph::TimestampMode timestamp_modes[] = {graph::TimestampMode::none, 
 
 FrameOptions frame_options(const SceneDescription& scene, const SimulationOptions& wanted) {
     FrameOptions options;
-    options.draw = wanted.draw;
+    options.draw = wanted.draw || wanted.layers;
+    options.color = wanted.draw;
+    options.layers = wanted.layers;
     options.view = wanted.view;
     options.positions = wanted.positions;
     options.normals = wanted.normals;
@@ -99,6 +101,8 @@ FrameOptions frame_options(const SceneDescription& scene, const SimulationOption
     options.width = scene.image.size[0];
     options.height = scene.image.size[1];
     options.samples = scene.image.samples;
+    // Layers alone have no picture to blur: they show the frame's own moment.
+    if (options.color) options.motion_blur = scene.image.motion_blur;
     return options;
 }
 
@@ -150,9 +154,11 @@ struct Simulation::Parts {
 
     /// Makes the scene the only member of a server, and prepares the pictures if another device draws them.
     void serve_alone() {
-        // What moves by itself is drawn once it is known where, on the same device if there is no other.
+        // What moves by itself is drawn once it is known where, and what is blurred once it is known how fast, on the
+        // same device if there is no other.
         Device::Parts* drawing = asked.draw ? device.parts_->drawing.get() : nullptr;
-        if (asked.draw && !drawing && (body_count(model) > 0 || player)) drawing = device.parts_.get();
+        if (asked.draw && !drawing && (body_count(model) > 0 || player || asked.motion_blur > 1))
+            drawing = device.parts_.get();
         server = std::make_shared<FrameServer>(device.parts_->device, model, drawing ? beside_pictures() : asked,
                                                listener(drawing != nullptr));
         if (drawing) pictures = std::make_unique<Pictures>(drawing->device, shown_model(), asked);
@@ -192,6 +198,7 @@ struct Simulation::Parts {
         FrameOptions options = asked;
         options.draw = false;
         options.draws_beside = options.positions = true;
+        if (options.motion_blur > 1) options.velocities = options.statistics = options.judges = true;
         options.meanwhile = [this] {
             if (give) pictures->go_on(give);
         };

@@ -85,7 +85,7 @@ const int strain_of_warp = 1;  // along columns; strain of either sign counts
 const int strain_of_weft = 2;  // along rows
 
 struct StrainPush {
-    uvec4 grid;    // columns, rows; z, w unused
+    uvec4 grid;    // columns, rows; z: its id in layers; w unused
     vec4 springs;  // x, y: rest lengths along columns, rows, m, 0: no such springs; z unused; w: thickness, m
     vec4 place;  // x s + y: place on the heat map; s: strain, or where z > 0 w log(1 + z strain), of the strain's sign
 };

@@ -22,6 +22,7 @@ TEST(DrawnBodies, BodiesThatClothMovesAreFoundBehindTheOneLeftOut) {
         ASSERT_EQ(all.size(), 2 + first);
         EXPECT_EQ(std::get<Sphere>(all[first].shape).center, (Vec3{0, 1, 0}));
         EXPECT_EQ(collider_pose(all[first + 1], 0).center, (Vec3{3, 2, 1}));
+        EXPECT_EQ(bodies.ids(4).back(), 7);
     }
 }
 

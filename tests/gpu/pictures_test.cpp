@@ -32,6 +32,7 @@ Device device_beside(const SceneDescription& scene) {
 struct Pictured {
     std::uint32_t frame;
     std::vector<std::uint8_t> rgba;
+    std::vector<std::byte> layers;
     std::vector<std::vector<float>> positions, normals;
     double energy;
     bool failed;
@@ -45,8 +46,10 @@ std::vector<std::vector<float>> copied(const std::vector<std::span<const float>>
 }
 
 Pictured pictured(const FinishedFrame& frame) {
+    const auto layers = std::as_bytes(frame.layers);
     return {frame.frame,
             {frame.rgba.begin(), frame.rgba.end()},
+            {layers.begin(), layers.end()},
             copied(frame.positions),
             copied(frame.normals),
             frame.statistics.empty() ? 0 : frame.statistics[0].kinetic_energy,
@@ -127,6 +130,27 @@ std::string sliced(const std::string& method) {
 
 TEST_F(PicturesTest, OfColliders) {
     open(colliding_scene);
+    compare(pictures_of());
+}
+
+TEST_F(PicturesTest, WithLayers) {
+    open(sliced("\"line\", \"substeps\": 5"));
+    SimulationOptions options = pictures_of();
+    options.layers = true;
+    compare(options);
+    options.draw = false;
+    open(colliding_scene);
+    Simulation one(scene_, options, library_device()), two(scene_, options, *beside_);
+    const std::vector<Pictured> expected = shown_by(one), found = shown_by(two);
+    EXPECT_TRUE(found == expected);
+    EXPECT_TRUE(expected.back().rgba.empty());
+    EXPECT_EQ(expected.back().layers.size(), 64u * 48 * sizeof(LayerPixel));
+    EXPECT_NE(expected.front().layers, expected.back().layers);
+}
+
+TEST_F(PicturesTest, WithMotionBlur) {
+    open(colliding_scene);
+    scene_.image.motion_blur = 3;
     compare(pictures_of());
 }
 

@@ -14,6 +14,7 @@
 #include "graph/executor.h"
 #include "graph/plan.h"
 #include "picture/camera.h"
+#include "picture/layers.h"
 #include "picture/raster.h"
 
 namespace drape {
@@ -51,6 +52,7 @@ struct DrawnCloth {
     Appearance appearance;
     std::vector<glsl::vec4> positions, normals;
     std::vector<std::uint32_t> indices;
+    std::array<double, 2> rest_lengths{0, 0};       ///< m, of springs along columns, rows; 0: no such springs
     std::vector<std::array<double, 2>> panel = {};  ///< Cloth::panel
 };
 
@@ -176,39 +178,65 @@ class Raster : public testing::Test {
     /// Submits the same plan in both frame slots.
     std::array<Picture, 2> draw_twice(SceneDescription scene, const std::vector<DrawnCloth>& cloths,
                                       const Shot& shot = {}) {
-        scene.cloths.resize(cloths.size());
-        for (std::size_t i = 0; i < cloths.size(); ++i) describe(cloths[i], scene.cloths[i]);
+        describe(cloths, scene);
+        const RasterPass raster(*shot.device, scene, width, height, shot.samples, shot.options);
+        std::array<Picture, 2> pictures;
+        run(raster, cloths, shot, [&](const graph::ResourcePool& pool, std::uint32_t slot) {
+            const auto mapped = pool.buffer(RasterPass::readback_name, slot).mapped();
+            EXPECT_EQ(mapped.size(), raster.readback_byte_count());
+            pictures[slot].bytes.resize(raster.readback_byte_count());
+            std::memcpy(pictures[slot].bytes.data(), mapped.data(), raster.readback_byte_count());
+        });
+        return pictures;
+    }
+
+    /// Returns the layers, by pixel.
+    std::vector<LayerPixel> layers(SceneDescription scene, const std::vector<DrawnCloth>& cloths,
+                                   const Shot& shot = {}) {
+        describe(cloths, scene);
+        const LayerPass pass(*shot.device, scene, width, height, false, false);
+        std::array<std::vector<LayerPixel>, 2> both;
+        run(pass, cloths, shot, [&](const graph::ResourcePool& pool, std::uint32_t slot) {
+            const std::span<const LayerPixel> pixels = pass.pixels(pool, slot);
+            both[slot].assign(pixels.begin(), pixels.end());
+        });
+        EXPECT_EQ(std::memcmp(both[0].data(), both[1].data(), both[0].size() * sizeof(LayerPixel)), 0);
+        return both[0];
+    }
+
+  private:
+    /// Draws in both frame slots; `take` is told of the pool and each of them.
+    template <class Pass, class Take>
+    static void run(const Pass& pass, const std::vector<DrawnCloth>& cloths, const Shot& shot, const Take& take) {
         const vulkan::Device& device = *shot.device;
-        const RasterPass raster(device, scene, width, height, shot.samples, shot.options);
         graph::Graph graph;
         std::vector<RasterCloth> raster_cloths;
         for (std::size_t i = 0; i < cloths.size(); ++i)
             raster_cloths.push_back(declare(graph, "cloth" + std::to_string(i), cloths[i]));
-        raster.add(graph, raster_cloths);
+        pass.add(graph, raster_cloths);
         const graph::Plan plan = graph::make_plan(graph);
         if (shot.skipped) *shot.skipped = plan.skipped;
         const std::pair<const graph::Graph*, const graph::Plan*> plans[] = {{&graph, &plan}};
         const graph::ResourcePool pool(device, plans);
         for (std::size_t i = 0; i < cloths.size(); ++i) fill(device, pool, "cloth" + std::to_string(i), cloths[i]);
-        raster.upload(pool);
+        pass.upload(pool);
         const graph::RecordedPlan recorded(graph, plan, pool, graph::TimestampMode::none);
         vulkan::FrameSlots slots(device);
-        std::array<Picture, 2> pictures;
         for (std::uint32_t slot = 0; slot < 2; ++slot) {
-            raster.write_frame(pool, slot, shot.time);
+            pass.write_frame(pool, slot, shot.time);
             slots.submit(slot, recorded.commands(slot));
         }
         for (std::uint32_t slot = 0; slot < 2; ++slot) {
             slots.wait(slot);
-            const auto mapped = pool.buffer(RasterPass::readback_name, slot).mapped();
-            EXPECT_EQ(mapped.size(), raster.readback_byte_count());
-            pictures[slot].bytes.resize(raster.readback_byte_count());
-            std::memcpy(pictures[slot].bytes.data(), mapped.data(), raster.readback_byte_count());
+            take(pool, slot);
         }
-        return pictures;
     }
 
-  private:
+    static void describe(const std::vector<DrawnCloth>& cloths, SceneDescription& scene) {
+        scene.cloths.resize(cloths.size());
+        for (std::size_t i = 0; i < cloths.size(); ++i) describe(cloths[i], scene.cloths[i]);
+    }
+
     /// Describes a drawn cloth to which the shadow map is fitted.
     static void describe(const DrawnCloth& drawn, Cloth& cloth) {
         const auto at = [&](std::size_t i) {
@@ -236,7 +264,10 @@ class Raster : public testing::Test {
                 image("/position"),
                 image("/normal"),
                 graph.buffer<glsl::uint>(name + "/triangles", cloth.indices.size(), graph::Lifetime::constant),
-                static_cast<std::uint32_t>(cloth.indices.size())};
+                static_cast<std::uint32_t>(cloth.indices.size()),
+                {},
+                {},
+                cloth.rest_lengths};
     }
 
     static void fill(const vulkan::Device& device, const graph::ResourcePool& pool, const std::string& name,

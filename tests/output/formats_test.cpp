@@ -8,9 +8,11 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
+#include "input/png_picture.h"
 #include "output/frame_writer.h"
 #include "temporary_folder.h"
 #include "written_runs.h"
@@ -91,9 +93,64 @@ TEST(WrittenCloth, TextureCoordinatesOfAnOutlineAreItsPlaces) {
 TEST(Formats, HaveNamesOfTheirOwn) {
     for (const OutputFormat* format : output_formats()) EXPECT_EQ(find_output_format(format->name), format);
     EXPECT_EQ(find_output_format("fbx"), nullptr);
-    EXPECT_EQ(export_format_names(false), "npy, npz, pc2, obj, ply, usda, vtu, mgn");
-    EXPECT_EQ(export_format_names(true), "npy, npz, pc2, obj, ply, usda, vtu, mgn, y4m, rgb");
+    EXPECT_EQ(export_format_names(false),
+              "npy, npz, pc2, obj, ply, usda, vtu, mgn, depth, normal, id, strain, depth16, normal16, id16, strain16");
+    EXPECT_EQ(export_format_names(true),
+              "npy, npz, pc2, obj, ply, usda, vtu, mgn, y4m, rgb, depth, normal, id, strain, depth16, normal16, id16, "
+              "strain16");
     EXPECT_EQ(stream_format_names(), "y4m, rgb");
+}
+
+/// Returns the values of an array file, whose header says this type and shape.
+template <class Value>
+std::vector<Value> array_in(const std::filesystem::path& file, const std::string& type, const std::string& shape) {
+    const std::string bytes = read_text(file);
+    EXPECT_THAT(bytes.substr(0, 128), testing::HasSubstr("'descr': '" + type + "'"));
+    EXPECT_THAT(bytes.substr(0, 128), testing::HasSubstr("'shape': (" + shape + ")"));
+    std::vector<Value> values((bytes.size() - 128) / sizeof(Value));
+    std::memcpy(values.data(), bytes.data() + 128, bytes.size() - 128);
+    return values;
+}
+
+TEST(Layers, AreNumbersOfEachPixel) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    for (const char* format : {"depth", "normal", "id", "strain"}) write(format, folder);
+    const auto depth = array_in<float>(temporary / "depth_0012.npy", "<f4", "2, 4");
+    ASSERT_EQ(depth.size(), 8u);
+    EXPECT_EQ(depth[0], std::numeric_limits<float>::infinity());
+    EXPECT_EQ(std::vector<float>(depth.begin() + 5, depth.end()), (std::vector<float>{12, 30, 1e6f}));
+    const auto normal = array_in<float>(temporary / "normal_0012.npy", "<f4", "2, 4, 3");
+    EXPECT_EQ(std::vector<float>(normal.begin(), normal.begin() + 12),
+              (std::vector<float>{0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, -1}));
+    EXPECT_EQ(array_in<std::uint16_t>(temporary / "id_0012.npy", "<u2", "2, 4"),
+              (std::vector<std::uint16_t>{0, 1, 3, 65535, 0, 1, 3, 65535}));
+    EXPECT_EQ(array_in<float>(temporary / "strain_0012.npy", "<f4", "2, 4"),
+              (std::vector<float>{0, 0.25f, 0, 0, 0, 0.25f, 0, 0}));
+    EXPECT_EQ(names_in(temporary.path()).size(), 12u);
+}
+
+TEST(Layers, AreSixteenBitPictures) {
+    const TemporaryFolder temporary;
+    OutputFolder folder(temporary.path());
+    for (const char* format : {"depth16", "normal16", "id16", "strain16"}) write(format, folder);
+    const auto row_of = [&](const char* name) {
+        const std::string bytes = read_text(temporary / name);
+        const GreyPicture picture = decode_grey_png(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+        EXPECT_EQ(picture.width, 4u);
+        EXPECT_EQ(picture.height, 2u);
+        std::vector<long> levels;
+        for (std::size_t i = 0; i < 4; ++i)
+            levels.push_back(std::lround(65535 * static_cast<double>(picture.values[i])));
+        return levels;
+    };
+    EXPECT_EQ(row_of("depth_0012.png"), (std::vector<long>{0, 12000, 30000, 65535}));
+    EXPECT_EQ(row_of("id_0012.png"), (std::vector<long>{0, 1, 3, 65535}));
+    EXPECT_EQ(row_of("strain_0012.png"), (std::vector<long>{0, 35268, 32768, 32768}));
+    const std::string colours = read_text(temporary / "normal_0012.png");
+    const Picture normals = decode_png(std::vector<std::uint8_t>(colours.begin(), colours.end()));
+    EXPECT_EQ(std::vector<std::uint8_t>(normals.rgb.begin(), normals.rgb.begin() + 9),
+              (std::vector<std::uint8_t>{0, 0, 0, 128, 255, 128, 0, 128, 128}));
 }
 
 struct Mesh {

@@ -55,6 +55,46 @@ TEST(Png, TwoDecodersGiveThePixelsBack) {
     }
 }
 
+/// Returns the 16-bit values of a PNG as another decoder reads them.
+std::vector<std::uint16_t> decode16_with_libpng(const std::vector<std::uint8_t>& png) {
+    struct Reader {
+        const std::vector<std::uint8_t>& png;
+        size_t at = 0;
+    } reader{png};
+    png_structp context = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(context);
+    png_set_read_fn(context, &reader, [](png_structp from, png_bytep to, size_t count) {
+        Reader& bytes = *static_cast<Reader*>(png_get_io_ptr(from));
+        std::memcpy(to, bytes.png.data() + bytes.at, count);
+        bytes.at += count;
+    });
+    png_read_png(context, info, PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+    EXPECT_EQ(png_get_bit_depth(context, info), 16);
+    std::vector<std::uint16_t> values;
+    const size_t bytes = png_get_rowbytes(context, info);
+    for (std::uint32_t row = 0; row < png_get_image_height(context, info); ++row) {
+        const size_t from = values.size();
+        values.resize(from + bytes / 2);
+        std::memcpy(&values[from], png_get_rows(context, info)[row], bytes);
+    }
+    png_destroy_read_struct(&context, &info, nullptr);
+    return values;
+}
+
+TEST(Png, NumbersOfSixteenBitsComeBack) {
+    std::mt19937 random(5);
+    for (const std::uint32_t channels : {1u, 3u})
+        for (const auto& [width, height] : {std::pair{1u, 1u}, {37u, 20u}}) {
+            std::vector<std::uint16_t> values(size_t{width} * height * channels);
+            for (auto& value : values) value = static_cast<std::uint16_t>(random());
+            const std::vector<std::uint8_t> png = encode_png16(width, height, channels, values);
+            EXPECT_EQ(decode16_with_libpng(png), values);
+            EXPECT_EQ(std::string(png.begin(), png.end()).find("sRGB"), std::string::npos);
+        }
+    EXPECT_THROW(encode_png16(2, 2, 1, std::vector<std::uint16_t>(3)), std::invalid_argument);
+    EXPECT_THROW(encode_png16(0, 2, 1, {}), std::invalid_argument);
+}
+
 TEST(Png, SaysThatItIsSrgb) {
     std::vector<std::uint8_t> png;
     encode_png(2, 2, random_rgba(2, 2), png);

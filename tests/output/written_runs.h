@@ -67,6 +67,16 @@ inline std::vector<std::uint8_t> picture_of(std::uint32_t frame) {
     return rgba;
 }
 
+/// Returns layers of the run's size: in each row nothing, cloth, a collider and a fixture.
+inline std::vector<LayerPixel> layers_of(std::uint32_t frame) {
+    const auto at = static_cast<float>(frame);
+    const std::vector<LayerPixel> row{
+        {}, {at, {0, 32767, 0}, 1, 0.25f}, {2.5f * at, {-32767, 0, 0}, 3, 0}, {1e6f, {0, 0, -32767}, fixture_id, 0}};
+    std::vector<LayerPixel> both = row;
+    both.insert(both.end(), row.begin(), row.end());
+    return both;
+}
+
 /// Writes `frames` frames of the run, with the cut, of which a run may tell before the frames that come before it.
 /// Velocities are the positions of the frame after, contacts the particles' numbers less 1; only the second frame has
 /// an error.
@@ -85,12 +95,14 @@ inline std::vector<FileRecord> write(FrameWriter& writer, std::uint32_t frames =
         FrameValues values{{"flag/energy_j", frame}, {"substeps", 4}, {"energy_j", 99}};
         if (frame == 12) values["flag/stretch_error_rms"] = 0.25;
         const std::vector<std::uint8_t> rgba = picture_of(frame);
+        const std::vector<LayerPixel> layers = layers_of(frame);
         writer.add({frame,
                     rgba,
                     {xyzw.begin(), xyzw.end()},
                     {velocities.begin(), velocities.end()},
                     {contacts.begin(), contacts.end()},
-                    values});
+                    values,
+                    layers});
     }
     return finish ? writer.finish() : std::vector<FileRecord>{};
 }

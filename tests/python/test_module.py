@@ -203,6 +203,25 @@ class Frames(Validated):
         gc.collect()
         np.testing.assert_array_equal(first, kept)
 
+    def test_layers(self):
+        simulation = self.simulate(sheet(), layers=True, size=(40, 30))
+        simulation.step()
+        layers = simulation.layers()
+        cloth = layers["id"] == 1
+        self.assertEqual({name: array.shape for name, array in layers.items()},
+                         {"depth": (30, 40), "normal": (30, 40, 3), "id": (30, 40), "strain": (30, 40)})
+        self.assertTrue(cloth.any())
+        np.testing.assert_array_equal(np.isinf(layers["depth"]), layers["id"] == 0)
+        np.testing.assert_allclose(np.linalg.norm(layers["normal"][cloth], axis=1), 1, atol=1e-4)
+        with self.assertRaises(ValueError):
+            simulation.picture()
+        with self.assertRaises(ValueError):
+            layers["depth"][0, 0] = 1
+        plain = self.simulate(sheet())
+        plain.step()
+        with self.assertRaises(ValueError):
+            plain.layers()
+
     def test_picture(self):
         simulation = self.simulate(sheet(), draw=True, size=(40, 30))
         simulation.step()

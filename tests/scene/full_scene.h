@@ -73,7 +73,8 @@ inline constexpr const char* full_scene =
   "lights": [{"direction": [0, -2, 0], "color": [1, 0.5, 0.25], "intensity": 0.75}, {}],
   "ambient": [0.1, 0.2, 0.3],
   "ambient_ground": [0.3, 0.2, 0.1],
-  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1], "fixtures": false, "blades": false, "alpha": true},
+  "image": {"size": [640, 360], "samples": 1, "background": [0, 0.5, 1], "fixtures": false, "blades": false, "alpha": true,
+            "motion_blur": 4},
   "oracles": [{"check": "falls", "cloth": 0, "from_row": 1, "until_frame": 10, "error": 1.05}]
 }
 )json";

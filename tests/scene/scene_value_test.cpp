@@ -46,7 +46,7 @@ TEST(SceneValues, SettingsOfTheFullScene) {
     EXPECT_EQ(scene.lights[0], (DirectionalLight{{0, -1, 0}, {1, 0.5, 0.25}, 0.75}));
     EXPECT_EQ(scene.ambient, (Vec3{0.1, 0.2, 0.3}));
     EXPECT_EQ(scene.ambient_ground, (Vec3{0.3, 0.2, 0.1}));
-    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}, false, false, true}));
+    EXPECT_EQ(scene.image, (ImageSettings{{640, 360}, 1, {0, 0.5, 1}, false, false, true, 4}));
     ASSERT_EQ(scene.oracles.size(), 1u);
     EXPECT_EQ(scene.oracles[0],
               (Oracle{"falls", {{"cloth", 0}, {"from_row", 1}, {"until_frame", 10}, {"error", 1.05}}}));

@@ -137,7 +137,7 @@ namespace {
 
 struct Options {
     std::string device;
-    bool draw, normals, validate, keep_failed;
+    bool draw, layers, normals, validate, keep_failed;
     std::string view;
     std::optional<double> view_range;
     std::optional<std::array<std::uint32_t, 2>> size;
@@ -150,6 +150,7 @@ class PySimulation {
         if (options.size) description.image.size = *options.size;
         SimulationOptions wanted;
         wanted.draw = options.draw;
+        wanted.layers = options.layers;
         wanted.view = picture_view(options.view, options.view_range);
         wanted.velocities = true;
         wanted.normals = options.normals;
@@ -203,6 +204,28 @@ py::array picture(const py::object& owner) {
     if (!self.draws()) throw py::value_error("no pictures: the simulation was made without draw=True");
     const auto& [width, height] = self.scene().image.size;
     return view(self.frame().rgba.data(), {height, width, 4}, {py::ssize_t{4} * width, 4, 1}, owner);
+}
+
+/// Returns what is seen at each pixel, by the layers' names; the normals, which have another type there, are copied.
+py::dict layers(const py::object& owner) {
+    const auto& self = py::cast<const PySimulation&>(owner);
+    const std::span<const LayerPixel> pixels = self.frame().layers;
+    if (pixels.empty()) throw py::value_error("no layers: the simulation was made without layers=True");
+    const auto& [width, height] = self.scene().image.size;
+    const auto pitch = static_cast<py::ssize_t>(sizeof(LayerPixel));
+    const auto seen = [&, width = width, height = height](const auto& first) {
+        return view(&first, {height, width}, {width * pitch, pitch}, owner);
+    };
+    py::array_t<float> normals({height, width, 3u});
+    float* to = normals.mutable_data();
+    for (const LayerPixel& pixel : pixels)
+        for (const std::int16_t part : pixel.normal) *to++ = static_cast<float>(part) / 32767;
+    py::dict all;
+    all["depth"] = seen(pixels[0].depth);
+    all["normal"] = normals;
+    all["id"] = seen(pixels[0].id);
+    all["strain"] = seen(pixels[0].strain);
+    return all;
 }
 
 py::array_t<std::int32_t> faces(const PySimulation& self, const py::object& which) {
@@ -312,9 +335,10 @@ void define_scene(py::module_& module) {
 
 std::unique_ptr<PySimulation> make_simulation(const py::object& scene, std::string device, bool draw, std::string shown,
                                               std::optional<double> view_range,
-                                              std::optional<std::array<std::uint32_t, 2>> size, bool normals,
-                                              bool validate, bool keep_failed) {
-    const Options options{std::move(device), draw, normals, validate, keep_failed, std::move(shown), view_range, size};
+                                              std::optional<std::array<std::uint32_t, 2>> size, bool layers,
+                                              bool normals, bool validate, bool keep_failed) {
+    const Options options{std::move(device), draw,       layers, normals, validate, keep_failed,
+                          std::move(shown),  view_range, size};
     return std::make_unique<PySimulation>(any_scene(scene), options);
 }
 
@@ -333,6 +357,12 @@ void define_arrays(py::class_<PySimulation>& simulation) {
     simulation
         .def("picture", &picture,
              "uint8 [height, width, 4], sRGB and 255, rows from the top; needs draw=True. No copy, as positions.")
+        .def("layers", &layers,
+             "What is seen at the centre of each pixel, rows from the top; needs layers=True. A dict of arrays [row, "
+             "column]: depth (float32, m along the camera's axis; infinity: nothing), id (uint16: 0 nothing, from 1 on "
+             "the cloths, after them the colliders, 65535 a pole, rail, knob or blade), strain (float32, of the most "
+             "stretched spring of cloth) and normal (float32 [row, column, 3], of the side in view, in the world). No "
+             "copies but of normal, as positions.")
         .def(
             "bodies", [](const PySimulation& self) { return body_arrays({self.frame().bodies}, false); },
             "A dict of float64 arrays [body, ...] of the colliders with a mass: collider (its number), position (m, of "
@@ -349,12 +379,13 @@ void define_simulation(py::module_& module) {
     simulation
         .def(py::init(&make_simulation), py::arg("scene"), py::kw_only(), py::arg("device") = "",
              py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
-             py::arg("size") = py::none(), py::arg("normals") = false, py::arg("validate") = false,
-             py::arg("keep_failed") = false,
+             py::arg("size") = py::none(), py::arg("layers") = false, py::arg("normals") = false,
+             py::arg("validate") = false, py::arg("keep_failed") = false,
              "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is what the "
              "environment variable DRAPE_DEVICE says, else the best there is. draw: pictures, of size (width, height), "
              "showing view (shaded, stretch, warp, weft, wire, normals; view_range: strain at the end of the colours). "
-             "normals: normals() are wanted. validate: Vulkan's validation layer, messages on stderr. "
+             "layers: layers() of that size are wanted. normals: normals() are wanted. validate: Vulkan's validation "
+             "layer, messages on stderr. "
              "keep_failed: go on after a frame that is no result.")
         .def("step", &PySimulation::step,
              "Computes the next frame, the first time frame 0, the start; False after the last. Other Python threads "

@@ -111,7 +111,7 @@ RunFolder read_run_folder(const fs::path& path) {
         const std::string name = entry["name"].asString();
         if (!is_plain_file_name(name) || !fs::exists(path / name)) continue;
         run.files.push_back(name);
-        if (name.ends_with(".png")) run.pictures.push_back(name);
+        if (is_frame_file_name(name)) run.pictures.push_back(name);
     }
     return run;
 }

@@ -36,7 +36,7 @@ bool alike(const GroupShape& first, const GroupShape& other) {
 }  // namespace
 
 bool can_be_grouped(const RunRequest& request, DeviceKind device) {
-    return !request.draws() && shape_of(asked_scene(request.scene), device);
+    return !request.draws() && !request.layers() && shape_of(asked_scene(request.scene), device);
 }
 
 std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, DeviceKind device) {
@@ -45,7 +45,7 @@ std::vector<std::vector<GroupedRun>> groups_of(std::vector<GroupedRun> runs, Dev
     for (GroupedRun& run : runs) {
         std::optional<GroupShape> shape;
         try {
-            if (!run.request.draws()) shape = shape_of(asked_scene(run.request.scene), device);
+            if (!run.request.draws() && !run.request.layers()) shape = shape_of(asked_scene(run.request.scene), device);
         } catch (const Error&) {  // the run tells of it
         }
         std::size_t k = shape ? 0 : groups.size();

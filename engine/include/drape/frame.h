@@ -78,10 +78,21 @@ struct BodyState {
     double kinetic_energy = 0, potential_energy = 0;  ///< J; the latter is 0 at the origin
 };
 
+/// What is seen at the centre of a pixel, in the bytes of a texel that the device writes.
+struct LayerPixel {
+    float depth = std::numeric_limits<float>::infinity();  ///< m along the camera's axis; infinity: nothing is there
+    std::array<std::int16_t, 3> normal{};  ///< 32767 times the unit normal of the side in view, in the world; else 0
+    std::uint16_t id = 0;                  ///< 0: nothing; then the cloths from 1 on, the colliders; 65535: a fixture
+    float strain = 0;                      ///< of cloth: that of the most stretched spring at the place; else 0
+};
+/// Ids of colliders follow those of the cloths; poles, rails, knobs and the rims of blades have one.
+inline constexpr std::uint16_t fixture_id = 65535;
+
 /// Particles are numbered row * columns + column.
 struct FinishedFrame {
     std::uint32_t frame = 0;                         ///< shows the time frame / fps; 0 is the initial state
     std::span<const std::uint8_t> rgba;              ///< empty unless drawn: rows from the top, sRGB
+    std::span<const LayerPixel> layers;              ///< empty unless wanted: of the picture's size, rows from the top
     std::vector<std::span<const float>> positions;   ///< per cloth, when wanted: x y z (m) and w per particle, w being
                                                      ///< its inverse mass over an inner particle's; 0: held
     std::vector<std::span<const float>> velocities;  ///< per cloth, when wanted: x y z (m/s) and 0

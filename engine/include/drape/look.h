@@ -89,10 +89,14 @@ struct ImageSettings {
     std::array<std::uint32_t, 2> size{1280, 720};
     std::uint32_t samples = 4;          ///< 1 or 4
     Vec3 background{0.86, 0.89, 0.93};  ///< sRGB 0..1
-    bool fixtures = true;  ///< draws poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
-    bool blades = true;    ///< draws cutters while they are active
-    bool alpha = false;    ///< no backdrop and no floor: pictures have an alpha channel
+    bool fixtures = true;           ///< draws poles, rails and knobs that pinned cloth hangs on (picture/fixtures.h)
+    bool blades = true;             ///< draws cutters while they are active
+    bool alpha = false;             ///< no backdrop and no floor: pictures have an alpha channel
+    std::uint32_t motion_blur = 1;  ///< moments at which a picture is drawn, of which it is the mean; 1: no blur
     bool operator==(const ImageSettings&) const = default;
 };
+/// Those moments are spread over so much of the time from frame to frame, up to the frame's own: a shutter of 180
+/// degrees.
+inline constexpr double open_shutter = 0.5;
 
 }  // namespace drape

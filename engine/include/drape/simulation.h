@@ -47,8 +47,9 @@ struct RequestEnd {
 };
 
 struct SimulationOptions {
-    bool draw = false;  ///< make pictures of the scene's size and samples
-    PictureView view;   ///< the pictures' view
+    bool draw = false;    ///< make pictures of the scene's size and samples
+    PictureView view;     ///< the pictures' view
+    bool layers = false;  ///< make layers of that size: what is seen where, as numbers
     bool positions = true;
     bool velocities = false;  ///< at the frames' ends, like the statistics' energies; implies statistics
     bool normals = false;
