@@ -73,6 +73,18 @@ struct Source {
     std::function<void(std::uint64_t count)> skip;
 };
 
+/// Memory is taken as bytes come, so that a file which claims more than it has costs nothing.
+void read_bytes(const Source& source, std::uint64_t count, std::vector<std::byte>& bytes) {
+    constexpr std::uint64_t most_at_once = std::uint64_t{16} << 20;
+    bytes.reserve(count);
+    while (bytes.size() < count) {
+        const std::size_t before = bytes.size(), more = std::min(count - before, most_at_once);
+        bytes.resize(before + more);
+        if (source.read(reinterpret_cast<char*>(bytes.data() + before), more) != more)
+            throw unreadable(source.where, "it ends too early");
+    }
+}
+
 /// Returns the text between the two, the first of which follows `key`; nothing if a header has none.
 std::optional<std::string> between(const std::string& header, const std::string& key, char open, char close) {
     const std::size_t at = header.find(key);
@@ -117,9 +129,7 @@ Array read_array(const Source& source, const WantedValues& wanted) {
     }
     expect_memory(fmt::format("'{}'", where), kept);
     source.skip(value_bytes - kept);
-    array.bytes.resize(kept);
-    if (source.read(reinterpret_cast<char*>(array.bytes.data()), kept) != kept)
-        throw unreadable(where, "it ends too early");
+    read_bytes(source, kept, array.bytes);
     if (swapped && array.has_numbers())
         for (auto at = array.bytes.begin(); at != array.bytes.end(); at += find_type(array.type)->bytes)
             std::reverse(at, at + find_type(array.type)->bytes);
