@@ -44,7 +44,7 @@ std::string check_override(const std::string& text) {
 std::string format_help(bool drawn) {
     std::string text;
     for (const OutputFormat* format : output_formats())
-        if (exported(*format, drawn)) text += fmt::format("\n{:6}{}: {}", format->name, format->files, format->holds);
+        if (exported(*format, drawn)) text += fmt::format("\n{:10}{}: {}", format->name, format->files, format->holds);
     return text;
 }
 

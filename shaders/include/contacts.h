@@ -108,8 +108,8 @@ bool near_early(vec3 now, float length, float thickness) {
 /// Returns the contact with all colliders from `first` on. With `in_turn`, each collider takes the displacement that
 /// the earlier ones left; otherwise all take the given one, and only the depth at its end counts. Without `follows`, a
 /// particle that goes so far that its path must be followed is judged by its end alone, and `went_far` becomes true.
-/// Normal, grip and what was lost are those of the deepest contact. A sum of what was lost would be wrong: lavapipe adds
-/// once more for lanes that have left a loop which others go on with.
+/// Normal, grip and what was lost are those of the deepest contact. A sum of what was lost would be wrong: lavapipe
+/// adds once more for lanes that have left a loop which others go on with.
 Contact contact_with_all(int first, vec3 start, vec3 displacement, float thickness, float friction, float recovery,
                          bool in_turn, bool follows, inout bool went_far) {
     float deepest = 0.0f;

@@ -38,8 +38,9 @@ TEST(Export, FormatsTogetherAreWhatEachIsAlone) {
         alone.merge(run(std::string(format->name)));
         all.insert(0, std::string(format->name) + ",");
     }
-    // npy npz pc2, obj and ply with the plane, usda of cloth, plane and both, vtu with two collections, mgn
-    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 5 + 5 + 3 + 7 + 1);
+    // npy npz pc2, obj and ply with the plane, usda of cloth, plane and both, vtu with two collections, mgn,
+    // eight kinds of layers of four frames
+    EXPECT_EQ(alone.size(), 1u + 1 + 2 + 5 + 5 + 3 + 7 + 1 + 8 * 4);
     EXPECT_EQ(run(all), alone);
     EXPECT_EQ(alone.at("positions.pc2").substr(32), alone.at("positions.npy").substr(128));
     EXPECT_EQ(lasting_manifest(folder.out(all))["files"].size(), alone.size());

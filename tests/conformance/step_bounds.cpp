@@ -8,7 +8,9 @@ namespace drape::test {
 
 // Vulkan lets a device round a division by 2.5 units and an inverse square root by 2, so a square root, which is one
 // over that, by 4.5; sums and products are rounded as by IEEE, since all are `precise`. A bound is what the longest
-// chain of such operations adds up to where nothing cancels, roughly, and one unit for the last rounding.
+// chain of such operations adds up to where nothing cancels, roughly, and one unit for the last rounding. In self_limit
+// a corner that moves along its plane makes all of its motion or none: where the other side takes all the room it is
+// held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
 const std::vector<StepBound>& step_bounds() {
     using enum StepKind;
     using enum Chain;
@@ -60,8 +62,6 @@ const std::vector<StepBound>& step_bounds() {
         {self_contact, 128, fixed, 0, "as self_begin"},
         {self_push, 16, fixed, 0, "of the sums, which are integers"},
         {self_impulses, 0, fixed, 0, "as momentum"},
-        // A corner that moves along its plane makes all of its motion or none: where the other side takes all the room
-        // it is held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
         {self_limit, 128, fixed, 10, "as self_begin; what moves along a plane goes towards it or not by rounding"},
         {self_return, 16, fixed, 0, "products and a division"},
         {self_couples, 64, fixed, 0, "as torque"},

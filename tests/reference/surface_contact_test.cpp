@@ -134,9 +134,14 @@ TEST(SurfaceContactTest, RoundMeshes) {
     expect_outside("capsule of triangles", rod, 0.25);
 }
 
-/// Returns how much higher (m) cloth lies on a mesh than on the kind of collider that it approximates.
+/// Returns how much higher (m) cloth lies on a mesh than on the kind of collider that it approximates. It has come to
+/// rest by then: while it still slides, any rounding moves its middle by a millimetre.
 double higher(const Collider& mesh, const Collider& kind) {
-    return drop(mesh, ContactOf::surface).middle - drop(kind, ContactOf::surface).middle;
+    const auto to_rest = [](SceneDescription& scene) {
+        scene.cloths[0].damping = 5;
+        scene.time.frame_count = 181;
+    };
+    return drop(mesh, ContactOf::surface, to_rest).middle - drop(kind, ContactOf::surface, to_rest).middle;
 }
 
 /// With the mesh and its samples cloth comes to lie as high as on the kind itself. A box of triangles has grown.
@@ -147,7 +152,7 @@ TEST(SurfaceContactTest, ClothRestsOnMeshesAsOnTheirKinds) {
         return Collider{mesh};
     };
     double ball = 0, rod = 0;
-    for (const std::uint32_t columns : {16, 32, 64}) {
+    for (const std::uint32_t columns : {32, 64}) {
         ball = higher(fine(test::mesh_of(test::ball_mesh(0.5, columns), middle), 0.8 / columns),
                       Collider{Sphere{middle, 0.5}});
         rod = higher(fine(test::mesh_of(test::capsule_mesh(0.3, 0.25, columns), middle), 0.8 / columns),

@@ -160,18 +160,16 @@ void run_collide(const TwinPlace& where) {
         if (state[Field::position][i].w == 0.0f) continue;
         const vec3 start = xyz(state[Field::position][i]);
         const vec2 skin = model.skin_of(i);
-        vec3 displacement = displacement_before_colliders(where, i), way_out{}, lost{};
+        vec3 displacement = displacement_before_colliders(where, i), way_out{};
         bool touched = step.after_edges && state[Field::lifted][i].w > 0.0f;
         TwinGivers givers;
         if (touched && impulses.are_wanted())
             givers.take(static_cast<int>(state[Field::lifted][i].w) - 1,
                         given_by_collider(displacement, {0, 0, 0}, xyz(state[Field::displacement][i])));
-        vec3 lies_on{};
-        vec4 on_grip{};
+        Contact last{};  // the deepest of the last round in which something is touched
         for (std::uint32_t round = 0; round < scene.collision_rounds(); ++round) {
-            float deepest = 0.0f;
-            vec3 normal{}, led{}, lost_to_it{};
-            vec4 grip{};
+            Contact deepest{};
+            vec3 led{};
             for (std::size_t k = 0; k < scene.scene.colliders.size(); ++k) {
                 const Contact contact = collider_contact(scene.scene.colliders[k].kind(), inputs.colliders[first + k],
                                                          start, displacement, skin.x, skin.y, recovery, true, fields);
@@ -179,27 +177,24 @@ void run_collide(const TwinPlace& where) {
                     givers.take(static_cast<int>(k),
                                 given_by_collider(contact.displacement, contact.led, displacement));
                 displacement = contact.displacement;
-                normal = contact.depth > deepest ? contact.normal : normal;
-                grip = contact.depth > deepest ? contact.grip : grip;
-                lost_to_it = contact.depth > deepest ? contact.lost : lost_to_it;
-                deepest = contact.depth > deepest ? contact.depth : deepest;
+                if (contact.depth > deepest.depth) deepest = contact;
                 led = led_sum(led, contact.led);
             }
             if (round == 0) way_out = led;
-            touched = touched || deepest > 0.0f;
-            if (deepest > 0.0f) lies_on = normal, on_grip = grip, lost = lost_to_it;
-            if (!(deepest > push.contact.z)) break;
+            touched = touched || deepest.depth > 0.0f;
+            if (deepest.depth > 0.0f) last = deepest;
+            if (!(deepest.depth > push.contact.z)) break;
         }
         if (!touched) continue;
         if (impulses.are_wanted())
             givers.book(impulses, &inputs.colliders[first], state[Field::position][i], displacement);
         const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
         const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
-        const bool lies = step.supporting && (lies_on.x != 0.0f || lies_on.y != 0.0f || lies_on.z != 0.0f);
+        const bool lies = step.supporting && (last.normal.x != 0.0f || last.normal.y != 0.0f || last.normal.z != 0.0f);
         if (lies) {
-            const vec3 touches = step.after_impulses ? xyz(on_grip) : displacement;
-            state[Field::support][i] = texel(lies_on, ordered_dot(lies_on, touches));
-            state[Field::support_grip][i] = on_grip;
+            const vec3 touches = step.after_impulses ? xyz(last.grip) : displacement;
+            state[Field::support][i] = texel(last.normal, ordered_dot(last.normal, touches));
+            state[Field::support_grip][i] = last.grip;
         }
         if (step.after_impulses || !lies) where.before()[i] = texel(displacement);
         if (model.scheme.second_order) {
@@ -208,7 +203,7 @@ void run_collide(const TwinPlace& where) {
         }
         leave(where, i, made);
         vec4& remainder = state[Field::displacement_remainder][i];
-        remainder = texel(led_sum(xyz(remainder), lost));
+        remainder = texel(led_sum(xyz(remainder), last.lost));
     }
 }
 
