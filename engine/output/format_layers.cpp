@@ -10,7 +10,7 @@ namespace drape {
 
 namespace {
 
-/// What the files of a layer are called, and have of each pixel.
+/// It says how the files of a layer are called, and what they have of each pixel.
 struct Layer {
     std::string_view name;
     const char* type;              ///< of a NumPy array

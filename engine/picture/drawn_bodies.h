@@ -1,4 +1,4 @@
-// What pictures show beside cloth: the scene's colliders and its fixtures.
+// Pictures show these beside cloth: the scene's colliders and its fixtures.
 #pragma once
 
 #include <optional>

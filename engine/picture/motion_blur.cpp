@@ -15,7 +15,7 @@ double shown_light(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// By level, linear light; and by linear light, the level.
+/// The tables give linear light by level, and the level by linear light.
 struct Levels {
     Levels() : level(white_light + 1) {
         for (std::size_t i = 0; i < light.size(); ++i)

@@ -111,7 +111,7 @@ class RasterPass {
     void draw_picture(graph::PassContext& context, const Targets& targets,
                       const std::vector<RasterCloth>& cloths) const;
 
-    /// What is drawn behind cloths and bodies, and what falls on them.
+    /// This is what is drawn behind cloths and bodies, and what falls on them.
     struct Surroundings {
         bool has_floor = false;              ///< a plane that is not among the bodies: the encoding pass draws it
         bool has_alpha = false;              ///< neither that nor the backdrop is drawn
@@ -119,7 +119,7 @@ class RasterPass {
         std::string shade_skip_reason{};     ///< why there is none
         std::string shadow_skip_reason{};    ///< empty: there is a shadow
     };
-    /// What the cloths show.
+    /// This is what the cloths show.
     struct Surfaces {
         std::optional<Textures> textures;
         PanelPlaces panels;

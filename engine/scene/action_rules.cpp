@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view three_or_six = "an array of 3 or 6 numbers";
 constexpr std::string_view grasp_words = "[column, row] or [column, row, column, row], or -1 of each";
 
-/// What a step may be told, the control that it needs, and how many entries it has.
+/// It is something that a step may be told, with the control that it needs and how many entries it has.
 struct List {
     std::string_view name, control;
     std::size_t told, expected;

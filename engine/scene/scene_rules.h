@@ -110,7 +110,8 @@ bool check_scene(const Members& members, SceneDescription& scene);
 bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.
 void warn_of_doubts(const Members& members, const SceneDescription& scene);
-/// What a pin, hand, collider or body is told: m, N and so on, and then degrees, N m and so on; 0 where 3 are given.
+/// They are what a pin, hand, collider or body is told: three in m, N and so on, then three in degrees, N m and so on,
+/// which are 0 where only three are given.
 Value<SixNumbers> three_or_six_numbers();
 /// The particles that a hand holds: first column and row, last column and row.
 using Grasp = std::array<std::int32_t, 4>;

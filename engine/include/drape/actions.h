@@ -1,4 +1,4 @@
-// What actions may change while a scene is simulated, and the actions that a scene has of its own
+// These are what actions may change while a scene is simulated, and the actions that a scene has of its own
 // (drape/ensemble.h has those of an ensemble's steps).
 #pragma once
 
@@ -51,7 +51,7 @@ struct FrameActions {
     bool operator==(const FrameActions&) const = default;
 };
 
-/// What a scene is told while it is simulated.
+/// A scene is told these while it is simulated.
 struct SceneActions {
     EnsembleControls controls;        ///< those that it would have in an ensemble
     std::vector<FrameActions> steps;  ///< strictly increasing in their frames

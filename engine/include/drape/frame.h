@@ -78,7 +78,7 @@ struct BodyState {
     double kinetic_energy = 0, potential_energy = 0;  ///< J; the latter is 0 at the origin
 };
 
-/// What is seen at the centre of a pixel, in the bytes of a texel that the device writes.
+/// It is what the centre of a pixel sees, in the bytes of a texel that the device writes.
 struct LayerPixel {
     float depth = std::numeric_limits<float>::infinity();  ///< m along the camera's axis; infinity: nothing is there
     std::array<std::int16_t, 3> normal{};  ///< 32767 times the unit normal of the side in view, in the world; else 0
