@@ -52,6 +52,11 @@ SceneDescription scene_of(const std::vector<std::string>& overrides) {
     return *result.scene;
 }
 
+SceneDescription scene_by(const std::string& method) {
+    return scene_of(
+        {method == "auto" ? R"(/solver={"method": "auto"})" : fmt::format("/solver/method=\"{}\"", method)});
+}
+
 std::vector<SceneDescription> drawn(const SceneDescription& scene, std::size_t count, std::uint32_t seed) {
     std::mt19937 random(seed);
     const auto between = [&](double low, double high) {

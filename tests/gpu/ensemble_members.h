@@ -12,6 +12,9 @@ namespace drape::test {
 
 /// Returns a sheet that hangs from a moving corner and another that lets go, in wind, over a ball and a floor.
 SceneDescription scene_of(const std::vector<std::string>& overrides = {});
+inline const std::vector<std::string> every_method{"line", "explicit", "relax", "auto"};
+/// The scene by a method; `auto` chooses its substeps.
+SceneDescription scene_by(const std::string& method);
 /// Draws every number that members may have of their own.
 std::vector<SceneDescription> drawn(const SceneDescription& scene, std::size_t count, std::uint32_t seed);
 

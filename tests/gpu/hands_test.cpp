@@ -15,21 +15,17 @@ namespace drape {
 namespace {
 
 using test::drawn;
+using test::every_method;
 using test::library_device;
 using test::of_member;
 using test::same_bytes;
+using test::scene_by;
 using test::scene_of;
 using testing::HasSubstr;
 using HandsTest = test::LibraryTest;
 
 constexpr std::uint32_t seed = 77;
 constexpr double fps = 60;
-const std::vector<std::string> methods{"line", "explicit", "relax", "auto"};
-
-SceneDescription scene_by(const std::string& method) {
-    return method == "auto" ? scene_of({R"(/solver={"method": "auto"})"})
-                            : scene_of({fmt::format("/solver/method=\"{}\"", method)});
-}
 
 /// A sheet in a vacuum that nothing holds.
 SceneDescription free_sheet(const std::string& method) {
@@ -63,7 +59,7 @@ void expect_same_release(const SceneDescription& by_itself, SceneDescription act
 }
 
 TEST_F(HandsTest, AReleaseByActionIsTheScenesToTheBit) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         SceneDescription scene = scene_by(method);
         scene.cloths[0].pins[1].release = 3 / fps;
@@ -76,7 +72,7 @@ TEST_F(HandsTest, AReleaseByActionIsTheScenesToTheBit) {
 
 /// A hand that held all of a cloth, moved and turned it lets go: then its centre of mass flies on a parabola.
 TEST_F(HandsTest, WhatIsLetGoFallsFreeWithTheVelocityThatItHas) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         const SceneDescription scene = free_sheet(method);
         Ensemble ensemble({scene}, {.controls = {.hands = {0}}}, library_device());
@@ -106,7 +102,7 @@ TEST_F(HandsTest, WhatIsLetGoFallsFreeWithTheVelocityThatItHas) {
 
 /// Two hands take corners of cloth that falls. One turns about itself, so its particles go round it.
 TEST_F(HandsTest, WhatIsTakenStaysWhereItIsAndGoesWithTheHand) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         SceneDescription scene = free_sheet(method);
         if (method == "explicit") scene.solver.substeps = 24;  // a single particle bears half of the cloth
@@ -202,7 +198,7 @@ struct Plan {
 const EnsembleControls planned{.wind = true, .gravity = true, .hands = {0}};
 
 TEST_F(HandsTest, MembersThatActAreAsAlone) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         const std::vector<SceneDescription> members = drawn(scene_by(method), 3, seed);
         Ensemble together(members, {.controls = planned}, library_device());
@@ -221,7 +217,7 @@ TEST_F(HandsTest, MembersThatActAreAsAlone) {
 }
 
 TEST_F(HandsTest, SavedAndResetMembersHoldWhatTheyHeld) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         Ensemble ensemble(drawn(scene_by(method), 2, seed), {.controls = planned}, library_device());
         const std::size_t zero[] = {0};
@@ -348,7 +344,7 @@ Vec3 force_of(const Ensemble& ensemble, const std::string& by) {
 }
 
 TEST_F(HandsTest, HandsBearTheWeightOfWhatTheyHold) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : every_method) {
         SCOPED_TRACE(method);
         const SceneDescription scene = hung_up(method);
         Ensemble ensemble({scene}, {.controls = {.hands = {0, 0}}}, library_device());

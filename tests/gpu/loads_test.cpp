@@ -23,14 +23,11 @@ using testing::HasSubstr;
 using MemberLoadsTest = test::LibraryTest;
 
 constexpr std::uint32_t seed = 78;
-const std::vector<std::string> methods{"line", "explicit", "relax", "auto"};
 const EnsembleControls controls{.loads = true};
 
 /// Sheets that a corner's weight and a pressure on some rows load.
 std::vector<SceneDescription> loaded(const std::string& method, std::size_t count) {
-    const SceneDescription scene = test::scene_of(
-        {method == "auto" ? R"(/solver={"method": "auto"})" : fmt::format("/solver/method=\"{}\"", method)});
-    std::vector<SceneDescription> members = test::drawn(scene, count, seed);
+    std::vector<SceneDescription> members = test::drawn(test::scene_by(method), count, seed);
     for (std::size_t k = 0; k < count; ++k)
         members[k].cloths[0].loads = {pull({{0, 11}, {0, 11}}, Vec3{0, -0.01 * static_cast<double>(k + 1), 0}),
                                       press({{0, 4}, {11, 11}}, static_cast<double>(k))};
@@ -38,7 +35,7 @@ std::vector<SceneDescription> loaded(const std::string& method, std::size_t coun
 }
 
 TEST_F(MemberLoadsTest, MembersAreAsAlone) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : test::every_method) {
         SCOPED_TRACE(method);
         test::expect_each_as_alone(loaded(method, 3), 6, true);
     }
@@ -46,7 +43,7 @@ TEST_F(MemberLoadsTest, MembersAreAsAlone) {
 
 /// The forces on members, loads among them, are those on each alone.
 TEST_F(MemberLoadsTest, ForcesOnMembersAreAsAlone) {
-    for (const std::string& method : methods) {
+    for (const std::string& method : test::every_method) {
         SCOPED_TRACE(method);
         std::vector<SceneDescription> members = loaded(method, 3);
         for (SceneDescription& member : members) member.forces = true;

@@ -13,6 +13,7 @@ namespace drape {
 namespace {
 
 using test::drawn;
+using test::every_method;
 using test::library_device;
 using test::of_member;
 using test::same_bytes;
@@ -21,7 +22,6 @@ using testing::HasSubstr;
 using RecordedActionsTest = test::LibraryTest;
 
 constexpr std::uint32_t last = 9;
-const std::vector<std::string> every_method{"line", "explicit", "relax", "auto"};
 
 /// A sheet in wind above a ball and a floor, pulled by a load, that tells its forces.
 SceneDescription told_scene(const std::string& method) {
