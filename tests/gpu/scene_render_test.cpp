@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "gpu_test.h"
 #include "scene_files.h"
@@ -53,17 +54,27 @@ std::array<double, 3> without_grey(const std::array<double, 3>& color) {
     return {color[0] - grey, color[1] - grey, color[2] - grey};
 }
 
+double size_of(const std::array<double, 3>& hue) { return std::hypot(hue[0], hue[1], hue[2]); }
+
+constexpr double least_hue = 0.08;  ///< what is nearer to grey has none
+
+/// The colours by which a cloth is found: of its sides, or where those are near grey, of its pattern.
+std::vector<Vec3> colors_of(const Appearance& look) {
+    if (size_of(without_grey(look.front)) > least_hue) return {look.front, back_of(look)};
+    return {look.second};
+}
+
 /// Share of the picture whose hue is that of `color`. Light and shade change brightness and the checker whitens, but
-/// the direction away from grey stays. Pixels near grey have no hue.
+/// the direction away from grey stays.
 double share_of_hue(const std::vector<std::uint8_t>& rgba, const Vec3& color) {
     const std::array<double, 3> wanted = without_grey(color);
-    const double wanted_size = std::hypot(wanted[0], wanted[1], wanted[2]);
+    const double wanted_size = size_of(wanted);
     std::size_t found = 0;
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const auto hue = without_grey({rgba[i] / 255.0, rgba[i + 1] / 255.0, rgba[i + 2] / 255.0});
-        const double size = std::hypot(hue[0], hue[1], hue[2]);
+        const double size = size_of(hue);
         const double aligned = hue[0] * wanted[0] + hue[1] * wanted[1] + hue[2] * wanted[2];
-        if (size > 0.08 && aligned > 0.97 * size * wanted_size) ++found;
+        if (size > least_hue && aligned > 0.97 * size * wanted_size) ++found;
     }
     return static_cast<double>(found) / (static_cast<double>(rgba.size()) / 4);
 }
@@ -75,8 +86,8 @@ void expect_every_cloth_drawn(const SceneDescription& scene, const Frames& frame
         EXPECT_EQ(frames.numbers[i], i * step);
         ASSERT_EQ(frames.pictures[i].size(), std::size_t{width} * height * 4);
         for (const Cloth& cloth : scene.cloths) {
-            const double share = share_of_hue(frames.pictures[i], cloth.appearance.front) +
-                                 share_of_hue(frames.pictures[i], back_of(cloth.appearance));
+            double share = 0;
+            for (const Vec3& color : colors_of(cloth.appearance)) share += share_of_hue(frames.pictures[i], color);
             EXPECT_GT(share, 0.01) << cloth.name << " in frame " << frames.numbers[i];
         }
     }
@@ -117,8 +128,7 @@ TEST_P(SceneRenderTest, ColoursAreTheCloths) {
     SceneDescription scene = test::shipped_scene(GetParam());
     std::vector<Vec3> colors;
     for (Cloth& cloth : scene.cloths) {
-        colors.push_back(cloth.appearance.front);
-        colors.push_back(back_of(cloth.appearance));
+        std::ranges::copy(colors_of(cloth.appearance), std::back_inserter(colors));
         cloth.appearance = {{0.5, 0.5, 0.5}, Vec3{0.5, 0.5, 0.5}, Pattern::plain};
     }
     const Frames frames = run(scene, 0, 1, 1);
