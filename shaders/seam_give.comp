@@ -48,7 +48,8 @@ vec3 place_of(SewnParticle particle, vec3 at) {
     if (sews_closing) {
         if (particle.between.z < 0) return at;
         SeamOpening opening = openings[push.opening + particle.between.z];
-        return sewn_together(at, particle.gap.xyz, push.stage == seam_touched ? opening.left.y : opening.left.x);
+        bool moved = push.stage == seam_touched || push.stage == seam_met;
+        return sewn_together(at, particle.gap.xyz, moved ? opening.left.y : opening.left.x);
     }
     return at;
 }
@@ -57,7 +58,7 @@ void give_mean(SewnParticle particle, int own, int place) {
     bool leads = particle.between.w == 1;
     float share = particle.weights.x;
     // What is there moves as one already.
-    if (push.stage == seam_begun || push.stage == seam_released) share = leads ? 1.0f : 0.0f;
+    if (push.stage != seam_predicted) share = leads ? 1.0f : 0.0f;
     vec4 moved = imageLoad(displacement, particle.at.xy), mean = sewn_places[place].displacement;
     vec3 lost = imageLoad(displacement_remainder, particle.at.xy).xyz, way = moved.xyz;
     if (sews_leads) {

@@ -59,7 +59,7 @@ vec3 particle_at(SewnParticle particle, vec3 place) {
     if (sews_closing) {
         if (particle.between.z < 0) return place;
         SeamOpening opening = openings[push.opening + particle.between.z];
-        bool moves = push.stage == seam_predicted || push.stage == seam_touched;
+        bool moves = push.stage == seam_predicted || push.stage == seam_touched || push.stage == seam_met;
         return sewn_apart(place, particle.gap.xyz, moves ? opening.left.y : opening.left.x);
     }
     return place;

@@ -14,6 +14,7 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D positions;
 #include "include/self_cloths.h"
+#include "include/self_sewn.h"
 #include "include/self_skins.h"
 layout(set = 0, binding = 4, std430) buffer Touching { SelfTouch touching[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };

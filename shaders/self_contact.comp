@@ -21,6 +21,7 @@ layout(set = 0, binding = 4, std430) buffer Touching { SelfTouch touching[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 6, std430) buffer Borne { SelfBorne borne[]; };
 layout(set = 0, binding = 7, rgba32f) uniform readonly imageBuffer supports;
+#include "include/self_sewn.h"
 #define SUMS_SLOT 8
 #define SUMS_IN_SLOT 9
 #include "include/self_sums.h"
@@ -38,14 +39,14 @@ bool begins_with_none() { return looks_back && push.round == 0; }
 
 Corner corner_of(uint which, SelfCloth cloth) {
     ivec2 texel = self_texel(which);
-    int place = place_of(texel);
+    int place = place_of(texel), leader = leader_of(place);
     vec4 position = imageLoad(positions, texel);
     precise float mass = position.w * cloth.lightness;
     vec3 moved = imageLoad(displacements, texel).xyz, by = vec3(0.0f, 0.0f, 0.0f);
-    if (!begins_with_none()) by = self_moved_by(impulse_of(sum_of(push.round, place), cloth.largest), mass);
+    if (!begins_with_none()) by = self_moved_by(impulse_of(sum_of(push.round, leader), cloth.largest), mass);
     Support support = Support(imageLoad(supports, 2 * place), imageLoad(supports, 2 * place + 1));
     vec3 motion = self_relative_motion(supported(self_added(moved, by), support), carried_at(place));
-    return Corner(position.xyz, motion, mass, self_holds(sum_of(0, place).z_weight.z));
+    return Corner(position.xyz, motion, mass, self_holds(sum_of(0, leader).z_weight.z));
 }
 
 void bear(bool edges, SelfTouch touch) {

@@ -1,5 +1,5 @@
 // This pass copies a cloth's particles to the sheet, as they are at this point of a substep. Where `masked`, an image
-// says which triangles exist (holes, cuts). Where `supported`, it also copies the surfaces on which they lie, and in
+// says which triangles exist (holes, cuts); where `sewn`, some beside seams are left out. Where `supported`, it also copies the surfaces on which they lie, and in
 // the substep that `ends_frame` the motions of the one before, which it frees of what was paid in advance. The pass of a member's last cloth also begins the
 // member's contact in the substep: the first workgroup computes the common motion relative to which all of its
 // particles are measured, from a few samples, or none where some particles are always held, and resets the records for
@@ -7,6 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/rotation_types.h"
+#include "shared/seam_types.h"
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/rotation.h"
@@ -39,13 +40,37 @@ layout(set = 0, binding = 8, std430) readonly buffer Cloths { SelfCloth cloths[]
 layout(set = 0, binding = 9, std430) buffer Record { SelfRecord record[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer Sizes { uvec4 sizes[]; };
 
+layout(constant_id = 34) const bool sews_closing = false;
+layout(set = 0, binding = 21, std430) readonly buffer Openings { SeamOpening openings[]; };
+#include "include/self_sewn.h"
+
 shared vec3 sampled[workgroup_width];
 shared float parts[workgroup_width];
 
+int place_of(ivec2 texel) { return (push.first.y + texel.y) * push.sheet.x + push.first.x + texel.x; }
+
+/// Returns bits of a cell's triangles that meet nothing, for their seams' sake.
+uint left_out(ivec2 cell) {
+    uint all = sewn_corners[place_of(cell)].left_out, bits = all & 3u;
+    if (sews_closing) bits |= openings[given.opening + int(all >> 4)].left.y != 0.0f ? (all >> 2) & 3u : 0u;
+    return bits;
+}
+
 bool exists(ivec2 cell, int which) {
     if (!cell_inside(cell, push.grid)) return false;
-    if (masked) return (imageLoad(cells, placed_cell(cell)).x & uint(which)) != 0u;
-    return true;
+    uint bits = 3u;
+    if (masked) bits = imageLoad(cells, placed_cell(cell)).x;
+    if (sewn) bits &= ~left_out(cell);
+    return (bits & uint(which)) != 0u;
+}
+
+/// Returns a particle with the mass of all that it is sewn to.
+vec4 with_whole_mass(vec4 position, ivec2 texel) {
+    if (sewn) {
+        float inverse_mass = sewn_corners[place_of(texel)].inverse_mass;
+        if (position.w > 0.0f && inverse_mass > 0.0f) position.w = inverse_mass;
+    }
+    return position;
 }
 
 /// Returns the bits of the primitives that a particle owns and that exist: two triangles, three edges, then itself. A
@@ -82,7 +107,7 @@ void lay_last_motion(ivec2 texel, ivec2 laid) {
 
 void lay(ivec2 texel) {
     ivec2 laid = push.first + texel;
-    STORE_IN_COLUMNS(positions, laid, push.sheet.x, LOAD(position, texel));
+    STORE_IN_COLUMNS(positions, laid, push.sheet.x, with_whole_mass(LOAD(position, texel), texel));
     vec3 moved = LOAD(displacement, texel).xyz;
     STORE_IN_COLUMNS(displacements, laid, push.sheet.x, vec4(moved, float(owned(texel))));
     if (ends_frame) lay_last_motion(texel, laid);

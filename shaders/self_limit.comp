@@ -29,11 +29,12 @@ float share_made(float own, int owner, int round) {
 }
 
 #include "include/self_carried.h"
+#include "include/self_sewn.h"
 
 bool cuts_short = false;
 
 struct Corner {
-    int place, owner;
+    int place, leader, owner;  // `owner`: the cloth, or the first of those that are sewn to it
     vec3 x;
     bool held;
     vec3 motion;         // m
@@ -43,28 +44,30 @@ struct Corner {
 vec3 motion(Corner corner, uint which, float thickness) {
     vec3 moved = imageLoad(displacements, self_texel(which)).xyz;
     vec3 carried = carried_at(corner.place);
-    if (!corner.held) moved = self_bounded(moved, imageLoad(before, corner.place).xyz, carried, thickness);
+    if (!corner.held) moved = self_bounded(moved, imageLoad(before, corner.place).xyz, carried,
+                                           own_thickness(corner.place, thickness));
     return self_relative_motion(moved, carried);
 }
 
 Corner corner_of(uint which) {
     ivec2 texel = self_texel(which);
-    int place = place_of(texel);
+    int place = place_of(texel), leader = leader_of(place);
     vec4 x = imageLoad(positions, texel);
-    int last = (push.round - 1) * push.grid.x * push.grid.y + place, owner = owner_of(place);
+    int last = (push.round - 1) * push.grid.x * push.grid.y + leader, owner = owner_of(place);
+    if (sewn) owner = cloths[max(owner, 0)].body;
     bool held = !(x.w > 0.0f);
     float share = 0.0f;
     if (push.round > 0) {
         share = uintBitsToFloat(shares[last]);
         if (cloth_count > 1) share = held ? share : share_made(share, owner, push.round - 1);
     }
-    return Corner(place, owner, x.xyz, held, vec3(0.0f), 0.0f, share);
+    return Corner(place, leader, owner, x.xyz, held, vec3(0.0f), 0.0f, share);
 }
 
 void bound(SelfGap gap, Corner corner, float middle, float end, float side, SelfCloth cloth, bool apart) {
     float share = self_share(gap, middle, end, side, corner.along, corner.share, corner.held, cloth.least);
     if (share < 1.0f) {
-        atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.place], floatBitsToUint(share));
+        atomicMin(shares[push.round * push.grid.x * push.grid.y + corner.leader], floatBitsToUint(share));
         cuts_short = true;
         if (cloth_count == 1 || corner.held) return;
         int own = corner.owner * self_cloth_words;
@@ -90,7 +93,7 @@ void bound_pair(bool edges, uvec4 pair) {
     vec4 end = self_ends(gap, vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     vec4 wants = self_wants(vec4(a.along, b.along, c.along, d.along), vec4(a.share, b.share, c.share, d.share));
     float middle = self_middle(edges, gap.apart, end, wants);
-    bool apart = !self_same_cloth(one, other);
+    bool apart = one.body != other.body;
     bound(gap, a, middle, end.x, 1.0f, one, apart);
     bound(gap, b, middle, end.y, edges ? 1.0f : -1.0f, edges ? one : other, apart);
     bound(gap, c, middle, end.z, -1.0f, other, apart);

@@ -12,6 +12,7 @@
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SelfContactPush)
 #include "include/self_sheet.h"
+#include "include/self_sewn.h"
 #include "include/self_skins.h"
 layout(set = 0, binding = 4, std430) readonly buffer Cells { ivec2 cells[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Near { uint near[]; };
@@ -30,8 +31,14 @@ vec3 moved(uint corner) {
     return self_relative_motion(imageLoad(displacements, texel).xyz, carried_at(texel));
 }
 
-/// Returns whether a pair is listed, and whether it touches.
+uint leader(uint corner) { return uint(leader_of(place_of(self_texel(corner)))); }
+
+/// Returns whether a pair is listed, and whether it touches. Two that a seam joins have a corner in common.
 bvec2 found(bool edges, uvec4 pair) {
+    if (sewn) {
+        uvec4 leaders = uvec4(leader(pair.x), leader(pair.y), leader(pair.z), leader(pair.w));
+        if (self_shares_corner(edges, leaders)) return bvec2(false);
+    }
     SelfCloth one = cloth_at(self_texel(pair.x)), other = cloth_at(self_texel(pair.w));
     SelfGap gap = self_gap(edges, SelfCorners(where(pair.x), where(pair.y), where(pair.z), where(pair.w)));
     float kept = pair_skin(edges, pair, gap.weights).x;

@@ -1,7 +1,8 @@
 // This pass gives the particles the velocities that the contacts' impulses cause, and moves them by these and by what
 // restores a missing thickness. Where some cloths `crossed` when they started, it adds the velocity that leads them
-// apart. Where it `looks_back`, it changes the motions of the substep before alike, which are no start of anything. In
-// the substep that `ends_frame`, it clears the sums of the rounds for the rounds that look back.
+// apart. What moves a particle moves those that are sewn to it. Where it `looks_back`, it changes the motions of the
+// substep before alike, which are no start of anything. In the substep that `ends_frame`, it clears the sums of the
+// rounds for the rounds that look back.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/simulation_types.h"
@@ -30,6 +31,7 @@ layout(constant_id = 26) const bool ends_frame = false;
 #define SUMS_IN_SLOT 11
 #include "include/self_sums.h"
 layout(set = 0, binding = 12, std430) writeonly buffer Sums { uvec4 sums[]; };  // two each
+#include "include/self_sewn.h"
 
 bool touching;  // some pairs touch; otherwise the sums belong to an earlier substep
 
@@ -44,10 +46,23 @@ void clear_rounds(int place) {
             sums[2 * (round * push.grid.x * push.grid.y + place) + half_sum] = uvec4(0u);
 }
 
+/// Stores the velocity of a particle and by what it is led off others.
+void leave(int place, float bits, vec3 velocity, vec3 good) {
+    ivec2 texel = texel_of(place);
+    if (looks_back) {
+        STORE_VECTOR(displacements_out, texel, vec4(velocity, 0.0f));
+        return;
+    }
+    velocities[place] = vec4(velocity, 0.0f);
+    made_good[place] = vec4(good, 0.0f);
+    STORE_VECTOR(displacements_out, texel, vec4(self_added(velocity, good), bits));
+    before[place].w = self_pushed;
+}
+
 void move(int place) {
     ivec2 texel = texel_of(place);
     float inverse_mass = imageLoad(positions, texel).w;
-    if (owner_of(place) < 0 || !(inverse_mass > 0.0f)) return;
+    if (owner_of(place) < 0 || !(inverse_mass > 0.0f) || leader_of(place) != place) return;
     vec4 moved = imageLoad(displacements_in, texel);
     SelfCloth cloth = cloth_at(texel);
     precise float mass = inverse_mass * cloth.lightness;
@@ -62,15 +77,11 @@ void move(int place) {
         if (!is_held && by.x == 0.0f && by.y == 0.0f && by.z == 0.0f) return;
         velocity = self_led(velocity, by);
     }
-    if (looks_back) {
-        STORE_VECTOR(displacements_out, texel, vec4(velocity, 0.0f));
-        return;
-    }
     vec3 good = self_led_by(self_moved_by(leading, mass), imageLoad(supports, 2 * place).xyz);
-    velocities[place] = vec4(velocity, 0.0f);
-    made_good[place] = vec4(good, 0.0f);
-    STORE_VECTOR(displacements_out, texel, vec4(self_added(velocity, good), moved.w));
-    before[place].w = self_pushed;
+    leave(place, moved.w, velocity, good);
+    if (sewn)
+        for (int next = sewn_corners[place].next; next >= 0; next = sewn_corners[next].next)
+            leave(next, imageLoad(displacements_in, texel_of(next)).w, velocity, good);
 }
 
 void main() {

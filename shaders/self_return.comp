@@ -35,8 +35,8 @@ layout(set = 0, binding = 12, rgba32f) uniform readonly imageBuffer made_good;
 layout(set = 0, binding = 13, std430) writeonly buffer Borne { SelfBorne borne[]; };
 layout(set = 0, binding = 14, rgba32f) uniform readonly imageBuffer supports;
 layout(set = 0, binding = 15, rgba32f) uniform readonly imageBuffer led_ways;
-layout(set = 0, binding = 16, std430) readonly buffer Owners { int owners[]; };
 layout(set = 0, binding = 17, std430) readonly buffer ClothShares { uint cloth_shares[]; };
+#include "include/self_sewn.h"
 
 // These are the member's, and whether the cloth goes on as a whole and its share then; all are read before anything has
 // branched (docs/devices.md).
@@ -54,11 +54,11 @@ int place_of(ivec2 texel) { return (push.first.y + texel.y) * push.sheet.x + pus
 
 Motion motion_of(ivec2 texel) {
     int place = place_of(texel);
-    float share = uintBitsToFloat(shares[(self_rounds - 1) * push.sheet.x * push.sheet.y + place]);
+    float share = uintBitsToFloat(shares[(self_rounds - 1) * push.sheet.x * push.sheet.y + leader_of(place)]);
     bool held = !(LOAD(position_in, texel).w > 0.0f);
     vec3 moved = imageLoad(displacements, push.first + texel).xyz;
     vec4 was = imageLoad(before, place);
-    vec3 allowed = self_bounded(moved, was.xyz, carried, push.thickness);
+    vec3 allowed = self_bounded(moved, was.xyz, carried, own_thickness(place, push.thickness));
     vec3 bounded = held ? moved : allowed;
     share = whole && !held ? least : share;
     bool changed = bounded.x != moved.x || bounded.y != moved.y || bounded.z != moved.z;
@@ -154,7 +154,7 @@ void count_own(int member) {
 
 void main() {
     carried = record[push.member].carried.xyz;
-    int own = max(owners[push.first.y * push.sheet.x + push.first.x], 0) * self_cloth_words;
+    int own = push.body * self_cloth_words;
     whole = cloth_shares[own] != 0u;
     least = uintBitsToFloat(cloth_shares[own + self_rounds]);
     end_all();

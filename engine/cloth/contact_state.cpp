@@ -13,6 +13,7 @@ using Context = const ContactContext&;
 
 bool always(Context) { return true; }
 bool has_skins(Context c) { return !c.contact.skins.empty(); }
+bool sewn(Context c) { return c.contact.is_sewn(); }
 bool crossed(Context c) { return !c.contact.to_part.empty(); }
 
 FieldExtent sheet(Context c) {
@@ -37,6 +38,11 @@ std::vector<ContactRow> rows() {
          [](Context c) { return bytes_of_list(c.contact.cloths); }},
         {skins, "skins", buffer, layout_of<glsl::vec2>(), constant, has_skins, places,
          [](Context c) { return bytes_of_list(c.contact.skins); }},
+        {sewn_corners, "sewn corners", buffer, layout_of<glsl::SelfSewn>(), constant, sewn, places,
+         [](Context c) { return bytes_of_list(c.contact.sewn); }},
+        {sewn_leaders, "sewn leaders", buffer, layout_of<int>(), constant, sewn,
+         [](Context c) { return FieldExtent{c.contact.sewn_leaders.size()}; },
+         [](Context c) { return bytes_of_list(c.contact.sewn_leaders); }},
         {meetings, "meetings", buffer, integer, constant, always,
          [](Context c) { return FieldExtent{c.contact.meetings.size()}; },
          [](Context c) { return bytes_of_list(c.contact.meetings); }},

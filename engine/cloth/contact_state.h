@@ -11,6 +11,8 @@ enum class ContactField : std::uint8_t {
     owners,         ///< by place on the sheet: the cloth there, or -1
     cloths,         ///< where the cloths lie on the sheet (shared/self_contact_types.h)
     skins,          ///< SelfContact::skins
+    sewn_corners,   ///< SelfContact::sewn
+    sewn_leaders,   ///< SelfContact::sewn_leaders
     meetings,       ///< for each pair of cloths: self_meets or another value of its kind
     crossed,        ///< pairs of cloths that started through each other
     crossings,      ///< what the substep found about the crossed pairs

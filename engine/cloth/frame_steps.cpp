@@ -114,11 +114,34 @@ class Substep {
     bool collided_ = false;
 };
 
+/// A step by which a cloth gives or takes what is at its seams.
+struct SeamStep {
+    StepKind kind;
+    std::size_t cloth;
+    int stage;
+};
+
+void add_seam(const SimulationModel& model, std::uint32_t substep, const SeamStep& step, std::vector<Step>& steps) {
+    const auto count = static_cast<int>(model.cloths[step.cloth].sewn.size());
+    if (count == 0) return;
+    const std::size_t weather = first_weather(model, model.cloths[step.cloth].member, substep);
+    const auto opening = static_cast<int>(substep * model.closings.size());
+    steps.push_back(
+        {step.kind, step.cloth, substep, 0, glsl::SeamPush{count, step.stage, opening, static_cast<int>(weather) + 1}});
+}
+
+/// Lets all cloths give, and then take.
+void hand_on(const SimulationModel& model, std::uint32_t substep, int stage, std::vector<Step>& steps) {
+    for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            add_seam(model, substep, {kind, cloth, stage}, steps);
+}
+
 /// Adds a substep of cloths that are sewn: they take turns, and what one does to a seam the others get before theirs.
 class SewnSubstep {
   public:
     SewnSubstep(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
-        : model_(model), substep_(substep), opening_(static_cast<int>(substep * model.closings.size())), steps_(steps) {
+        : model_(model), substep_(substep), steps_(steps) {
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             parts_.emplace_back(model, cloth, substep, steps);
         taken_.resize(parts_.size());
@@ -147,17 +170,8 @@ class SewnSubstep {
     }
 
   private:
-    void add(StepKind kind, std::size_t cloth, int stage) {
-        const auto count = static_cast<int>(model_.cloths[cloth].sewn.size());
-        if (count == 0) return;
-        const std::size_t weather = first_weather(model_, model_.cloths[cloth].member, substep_);
-        steps_.push_back(
-            {kind, cloth, substep_, 0, glsl::SeamPush{count, stage, opening_, static_cast<int>(weather) + 1}});
-    }
-    void hand_on(int stage) {
-        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_give, cloth, stage);
-        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) add(StepKind::seam_take, cloth, stage);
-    }
+    void add(StepKind kind, std::size_t cloth, int stage) { add_seam(model_, substep_, {kind, cloth, stage}, steps_); }
+    void hand_on(int stage) { drape::hand_on(model_, substep_, stage, steps_); }
     /// Returns whether no two of a cloth's own particles are sewn to each other and none lies between places, so that
     /// it has what it gives.
     bool is_alone(std::size_t cloth) const {
@@ -196,7 +210,6 @@ class SewnSubstep {
 
     const SimulationModel& model_;
     std::uint32_t substep_;
-    int opening_;
     std::vector<Step>& steps_;
     std::vector<Substep> parts_;
     std::size_t given_ = 0;           ///< how often a cloth has handed on what springs or contact did
@@ -212,6 +225,7 @@ class ContactSteps {
 
     void add() {
         add_for_cloths(StepKind::self_gather);
+        sew(false);
         for (const StepKind kind :
              {StepKind::self_boxes, StepKind::self_tree, StepKind::self_blocks, StepKind::self_near})
             add_one(kind);
@@ -223,8 +237,11 @@ class ContactSteps {
         if (model_.scene.forces && model_.cloths.size() > 1) add_for_cloths(StepKind::self_impulses);
         if (is_last()) add_impulses(true);
         if (!model_.scene.colliders.empty()) collide();
+        sew(true);
         for (int round = 0; round < glsl::self_rounds; ++round) add_one(StepKind::self_limit, round);
         add_for_cloths(StepKind::self_return);
+        // What lies between two places follows them.
+        if (contact_.is_sewn()) hand_on(model_, substep_, glsl::seam_met, steps_);
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
             if (model_.cloths[cloth].turn) give_back(cloth);
     }
@@ -236,6 +253,11 @@ class ContactSteps {
         push.round = round;
         return steps_.emplace_back(Step{kind, between_cloths, substep_, 0, push, is_last()});
     }
+    /// Makes particles that are one alike, where each cloth has met colliders by itself.
+    void sew(bool after_impulses) {
+        if (contact_.push.sewn_count > 0 && !model_.scene.colliders.empty())
+            add_one(StepKind::self_sew).after_impulses = after_impulses;
+    }
     void add_impulses(bool looks_back) {
         for (int round = 0; round < glsl::self_iterations; ++round)
             add_one(StepKind::self_contact, round).looks_back = looks_back;
@@ -243,7 +265,8 @@ class ContactSteps {
     }
     void add_for_cloths(StepKind kind) {
         for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth)
-            steps_.push_back({kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_ == 0), is_last()});
+            steps_.push_back(
+                {kind, cloth, substep_, 0, contact_.cloth_push(cloth, substep_, model_.closings.size()), is_last()});
     }
     /// Gives a cloth that may turn the angular momentum back that contact has made.
     void give_back(std::size_t cloth) {
@@ -269,7 +292,7 @@ class ContactSteps {
                               .cloth = cloth,
                               .substep = substep_,
                               .iteration = model_.scene.solver.iterations + 1,
-                              .constants = contact_.cloth_push(cloth, false),
+                              .constants = contact_.cloth_push(cloth, substep_, model_.closings.size()),
                               .supporting = true,
                               .leading = true,
                               .after_impulses = true});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloth/flat_distance.h"
+#include "cloth/sewing.h"
 #include "world/contact_shape.h"
 
 namespace drape {
@@ -172,7 +173,9 @@ SelfContact::SelfContact(const SceneDescription& scene, const std::vector<ClothM
     for (glsl::SelfCloth& cloth : cloths) {
         cloth.least = push.least;
         cloth.largest = push.thickness;
+        cloth.body = static_cast<int>(&cloth - cloths.data());
     }
+    lay_seams(scene, models);
     push.cloth = cloths.front();
     lay_skins(scene, models);
 }
@@ -200,8 +203,10 @@ SelfContact::SelfContact(const std::vector<const SelfContact*>& members)
         push.thickness = std::max(push.thickness, member.push.thickness);
         push.least = std::max(push.least, member.push.least);
         push.margin = std::min(push.margin, member.push.margin);
+        const int first_cloth = static_cast<int>(cloths.size());
         for (glsl::SelfCloth cloth : member.cloths) {
             cloth.first = {corner.x + cloth.first.x, corner.y + cloth.first.y};
+            cloth.body += first_cloth;
             cloths.push_back(cloth);
         }
         capacity.add(member.capacity);
@@ -213,6 +218,70 @@ SelfContact::SelfContact(const std::vector<const SelfContact*>& members)
         }
     }
     push.cloth = cloths.front();
+}
+
+int SelfContact::place_of(std::size_t cloth, std::size_t particle) const {
+    const glsl::SelfCloth& laid = cloths[cloth];
+    const auto own = static_cast<int>(particle);
+    return (laid.first.y + own / laid.grid.x) * push.grid.x + laid.first.x + own % laid.grid.x;
+}
+
+void SelfContact::lay_seams(const SceneDescription& scene, const std::vector<ClothModel>& models) {
+    const SeamCover cover(scene);
+    if (cover.cloths.empty()) return;
+    sewn.resize(place_count());
+    for (std::size_t place = 0; place < sewn.size(); ++place) sewn[place] = {static_cast<int>(place), -1, 0, 0, 0};
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        glsl::SelfCloth& cloth = cloths[k];
+        cloth.body = static_cast<int>(cover.cloths[k].body);
+        for (std::size_t other = 0; other < cloths.size(); ++other)
+            if (cover.are_sewn(k, other) && is_held(scene.cloths[other])) cloth.held = 1;
+        for (std::size_t particle = 0; particle < models[k].grid.particle_count(); ++particle)
+            sewn[std::size_t(place_of(k, particle))].thickness = cloth.thickness;
+    }
+    lay_triangles(cover, closing_times(scene));
+    lay_followers(cover);
+    const std::vector<double> masses = sewn_masses(scene);
+    for (std::size_t station = 0; station < masses.size(); ++station)
+        for (const SewnMember& member : cover.sewing.stations[station].group)
+            sewn[std::size_t(place_of(member.cloth, member.particle))].inverse_mass =
+                static_cast<float>(particle_mass(scene.cloths[member.cloth], models[member.cloth]) / masses[station]);
+}
+
+void SelfContact::lay_triangles(const SeamCover& cover, const std::vector<double>& closings) {
+    for (std::size_t k = 0; k < cloths.size(); ++k) {
+        const SeamCover::OfCloth& own = cover.cloths[k];
+        const auto cells = static_cast<std::size_t>(cloths[k].grid.x - 1);
+        for (std::size_t cell = 0; cell < own.never.size(); ++cell) {
+            const std::size_t particle = cell / cells * (cells + 1) + cell % cells;
+            glsl::uint& bits = sewn[std::size_t(place_of(k, particle))].left_out;
+            bits = own.never[cell] | own.closing[cell] << 2;
+            if (own.closing[cell] == 0) continue;
+            const auto closing = std::ranges::find(closings, own.until[cell]);
+            bits |= static_cast<glsl::uint>(closing - closings.begin()) << 4;
+        }
+    }
+}
+
+void SelfContact::lay_followers(const SeamCover& cover) {
+    const auto follow = [&](const SewnGroup& group) {
+        if (group.size() < 2) return;
+        sewn_leaders.push_back(place_of(group.front().cloth, group.front().particle));
+        float thickness = sewn[std::size_t(sewn_leaders.back())].thickness;
+        int before = -1;
+        for (const SewnMember& member : group)
+            thickness = std::min(thickness, sewn[std::size_t(place_of(member.cloth, member.particle))].thickness);
+        for (const SewnMember& member : group) {
+            const int place = place_of(member.cloth, member.particle);
+            if (before >= 0) sewn[std::size_t(before)].next = place;
+            sewn[std::size_t(place)].leader = sewn_leaders.back();
+            sewn[std::size_t(place)].thickness = thickness;
+            before = place;
+        }
+    };
+    for (const SewnStation& station : cover.sewing.stations) follow(station.group);
+    for (const SewnBetween& each : cover.sewing.between) follow(each.group);
+    push.sewn_count = static_cast<int>(sewn_leaders.size());
 }
 
 void SelfContact::lay_skins(const SceneDescription& scene, const std::vector<ClothModel>& models) {
@@ -250,7 +319,7 @@ std::vector<int> SelfContact::owners() const {
     return all;
 }
 
-glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, bool begins_frame) const {
+glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, std::uint32_t substep, std::size_t closings) const {
     const glsl::SelfCloth& laid = cloths[cloth];
     const std::size_t each = cloths_each();
     const bool is_last = (cloth + 1) % each == 0;
@@ -259,10 +328,12 @@ glsl::SelfClothPush SelfContact::cloth_push(std::size_t cloth, bool begins_frame
             push.grid,
             is_last ? static_cast<int>(each) : 0,
             held ? 1 : 0,
-            begins_frame ? 1 : 0,
+            substep == 0 ? 1 : 0,
             laid.thickness,
             static_cast<int>(cloth / each),
-            static_cast<int>(member_count)};
+            static_cast<int>(member_count),
+            static_cast<int>(substep * closings),
+            laid.body};
 }
 
 void ContactCapacity::add(const ContactCapacity& other) {

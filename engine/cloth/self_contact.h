@@ -8,6 +8,7 @@
 
 #include "cloth/cloth_model.h"
 #include "shared/self_contact_types.h"
+#include "world/seam_cover.h"
 #include "world/start_crossings.h"
 
 namespace drape {
@@ -44,6 +45,9 @@ struct SelfContact {
     /// By place on the sheet; x: thickness kept between layers, m; y: square root of the friction coefficient. Empty:
     /// no cloth has maps of them.
     std::vector<glsl::vec2> skins;
+    std::vector<glsl::SelfSewn> sewn;  ///< by place on the sheet; empty: no cloth is sewn
+    std::vector<int> sewn_leaders;     ///< the places of particles that others follow
+    bool is_sewn() const { return !sewn.empty(); }
     glsl::ivec2 largest{};  ///< the largest numbers of columns and of rows of any cloth
     bool held = false;      ///< some particles are held for good
     std::size_t member_count = 1;
@@ -57,12 +61,16 @@ struct SelfContact {
     /// Returns the member whose rectangle contains a place.
     std::size_t member_of(glsl::ivec2 texel) const;
     std::size_t cloths_each() const { return cloths.size() / member_count; }
-    /// `begins_frame`: the step belongs to the frame's first substep.
-    glsl::SelfClothPush cloth_push(std::size_t cloth, bool begins_frame) const;
+    /// The step belongs to this substep of its frame; `closings`: SimulationModel::closings.
+    glsl::SelfClothPush cloth_push(std::size_t cloth, std::uint32_t substep, std::size_t closings) const;
     std::size_t place_count() const { return std::size_t(push.grid.x) * std::size_t(push.grid.y); }
 
   private:
+    int place_of(std::size_t cloth, std::size_t particle) const;
     void lay_skins(const SceneDescription& scene, const std::vector<ClothModel>& models);
+    void lay_seams(const SceneDescription& scene, const std::vector<ClothModel>& models);
+    void lay_triangles(const SeamCover& cover, const std::vector<double>& closings);
+    void lay_followers(const SeamCover& cover);
 };
 
 /// Returns the largest ratio of a list's needed length to its capacity in a frame; above 1, entries were lost.

@@ -92,6 +92,12 @@ class Stations {
             if (station.mass_by_cloth.contains(cloth)) add_station(index, {cloth, solves}, all);
     }
 
+    std::vector<double> masses() const {
+        std::vector<double> all(sewing_.stations.size());
+        for (const auto& [index, station] : stations_) all[index] = station.mass;
+        return all;
+    }
+
   private:
     /// Whose particles are asked for, and how the method moves them.
     struct Asked {
@@ -232,5 +238,7 @@ std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& clo
     Stations(scene).add(static_cast<std::size_t>(&cloth - first), named(scene.solver.method).iterates(), all);
     return all;
 }
+
+std::vector<double> sewn_masses(const SceneDescription& scene) { return Stations(scene).masses(); }
 
 }  // namespace drape

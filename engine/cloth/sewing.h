@@ -32,4 +32,8 @@ double opening_at(double time, double closed);
 /// that are sewn there; by others each has its own, and the mean of their steps is that of the place.
 std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& cloth);
 
+/// Returns, by station of `sewing_of`, the mass (kg) of all that is sewn there; a particle between two counts at each
+/// by its weight.
+std::vector<double> sewn_masses(const SceneDescription& scene);
+
 }  // namespace drape

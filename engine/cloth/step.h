@@ -73,8 +73,9 @@ enum class StepKind {
     self_return,
     self_couples,
     self_turn,
+    self_sew,
 };
-inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_turn) + 1;
+inline constexpr std::size_t step_kind_count = static_cast<std::size_t>(StepKind::self_sew) + 1;
 
 /// The push structure of a step whose constants depend on the method. `SpringPush::first_iteration` is set in each
 /// iteration.

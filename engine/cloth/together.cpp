@@ -143,7 +143,7 @@ struct StructureOf {
         if (push.member_count == 1) return push;
         push.first = {};
         push.thickness = 0;
-        push.member = 0;
+        push.member = push.body = 0;
         return push;
     }
     StepConstants operator()(const glsl::NestedPush& push) const {

@@ -125,10 +125,38 @@ Json::Value split_json(const std::vector<Manifest::SplitTriangles>& split) {
     return json;
 }
 
+Json::Value beside_seams_json(const Manifest::SelfCollision& told) {
+    Json::Value json(Json::arrayValue);
+    for (const auto& [cloth, count, closing_count] : told.beside_seams) {
+        Json::Value row(Json::objectValue);
+        row["cloth"] = cloth;
+        row["triangles"] = Json::UInt64{count};
+        row["closing"] = Json::UInt64{closing_count};
+        json.append(row);
+    }
+    return json;
+}
+
+/// Returns what seams leave out, after a comma or semicolon.
+std::string beside_seams_text(const Manifest::SelfCollision& told) {
+    std::uint64_t count = 0, closing_count = 0;
+    for (const Manifest::SeamTriangles& each : told.beside_seams) {
+        count += each.count;
+        closing_count += each.closing_count;
+    }
+    std::string text;
+    if (count > 0) text = fmt::format("; not covered: {} triangles beside seams of unlike sides", count);
+    if (closing_count > 0)
+        text += fmt::format("; not covered: {} triangles beside seams that close, the last at {:.4g} s", closing_count,
+                            told.seams_close);
+    return text;
+}
+
 /// Returns the proof of the triangles that meet others.
 std::string proof_text(const Manifest::SelfCollision& told) {
-    std::string met =
-        told.not_covered.empty() ? "no crossing in any substep" : "no crossing of whole triangles in any substep";
+    std::string met = !told.not_covered.empty()    ? "no crossing of whole triangles in any substep"
+                      : !told.beside_seams.empty() ? "no crossing of covered triangles in any substep"
+                                                   : "no crossing in any substep";
     if (told.first_unproved == 0u)
         met = "not proved from frame 0 on: a cloth started through itself";
     else if (told.first_unproved)
@@ -146,9 +174,10 @@ std::string proof_text(const Manifest::SelfCollision& told) {
 }
 
 std::string certificate_of(const Manifest::SelfCollision& told) {
-    if (told.not_covered.empty()) return proof_text(told);
-    return fmt::format("{}; not covered: {} that were split from frame {} on", proof_text(told),
-                       triangles_text(told.not_covered), told.not_covered.front().first_frame);
+    const std::string seams = beside_seams_text(told);
+    if (told.not_covered.empty()) return proof_text(told) + seams;
+    return fmt::format("{}; not covered: {} that were split from frame {} on{}", proof_text(told),
+                       triangles_text(told.not_covered), told.not_covered.front().first_frame, seams);
 }
 
 Json::Value self_collision_json(const Manifest::SelfCollision& told) {
@@ -166,6 +195,7 @@ Json::Value self_collision_json(const Manifest::SelfCollision& told) {
     if (told.apart_since) json["apart_since_frame"] = *told.apart_since;
     if (told.first_unproved) json["first_unproved_frame"] = *told.first_unproved;
     if (!told.not_covered.empty()) json["not_covered"] = split_json(told.not_covered);
+    if (!told.beside_seams.empty()) json["beside_seams"] = beside_seams_json(told);
     json["most_pairs"] = told.most_pairs;
     json["motions_cut_short"] = Json::UInt64(told.truncated);
     json["longest_lag_m"] = told.longest_lag;

@@ -84,11 +84,18 @@ struct Manifest {
         std::int64_t first_frame = 0;  // the first frame in which some are split
         std::uint64_t count = 0;       // in the last frame
     };
+    struct SeamTriangles {  // triangles of a cloth beside seams, that contact leaves out
+        std::string cloth;
+        std::uint64_t count = 0;          // for good: a corner lies between two others
+        std::uint64_t closing_count = 0;  // which meet others only once their seams have closed
+    };
     struct SelfCollision {
         std::vector<std::string> cloths;              // names of cloths that meet themselves
         bool between_cloths = false;                  // all cloths meet each other
         std::optional<std::uint32_t> first_unproved;  // frame; nothing: no crossing in any substep
         std::vector<SplitTriangles> not_covered;      // triangles without proof; the earliest first
+        std::vector<SeamTriangles> beside_seams;      // further triangles without proof
+        double seams_close = 0;                       // s: when the last of those seams has
         std::uint32_t most_pairs = 0;                 // pairs that were near each other in a substep
         std::uint64_t truncated = 0;                  // motions cut short
         double longest_lag = 0;                       // m, the farthest that one was held back in a substep

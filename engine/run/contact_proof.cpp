@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "world/contact_shape.h"
+#include "world/seam_cover.h"
 
 namespace drape {
 
@@ -16,12 +17,25 @@ std::optional<std::uint32_t> apart_since(const SelfContactReport& told, const Si
     return *told.last_crossed + 1;
 }
 
+/// Tells which triangles meet nothing for the sake of their seams.
+void leave_out_at_seams(const SceneDescription& scene, Manifest::SelfCollision& proof) {
+    const SeamCover seams(scene);
+    for (std::size_t k = 0; k < seams.cloths.size(); ++k) {
+        const SeamCover::OfCloth& own = seams.cloths[k];
+        if (own.never_count + own.closing_count == 0) continue;
+        proof.beside_seams.push_back({scene.cloths[k].name, own.never_count, own.closing_count});
+        proof.seams_close = std::max(proof.seams_close, std::ranges::max(own.until));
+    }
+}
+
 Manifest::SelfCollision self_collision_of(const Simulation& simulation, const SelfContactReport& told) {
     const std::vector<Cloth>& cloths = simulation.scene().cloths;
     Manifest::SelfCollision proof{.cloths = {},
                                   .between_cloths = cloths.size() > 1,
                                   .first_unproved = told.first_unproved,
                                   .not_covered = {},
+                                  .beside_seams = {},
+                                  .seams_close = 0,
                                   .most_pairs = told.most_pairs,
                                   .truncated = told.truncated,
                                   .longest_lag = told.longest_lag,
@@ -31,6 +45,7 @@ Manifest::SelfCollision self_collision_of(const Simulation& simulation, const Se
                                   .apart_since = apart_since(told, simulation)};
     for (const Cloth& cloth : cloths)
         if (cloth.self_collision) proof.cloths.push_back(cloth.name);
+    leave_out_at_seams(simulation.scene(), proof);
     for (const auto& [one, other] : told.crossed) proof.crossed.emplace_back(cloths[one].name, cloths[other].name);
     return proof;
 }

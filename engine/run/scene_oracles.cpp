@@ -14,6 +14,7 @@
 #include "world/body_pose.h"
 #include "world/contact_shape.h"
 #include "world/motion.h"
+#include "world/seam_cover.h"
 #include "world/start_crossings.h"
 #include "world/surface_distance.h"
 #include "world/triangle_crossings.h"
@@ -313,30 +314,36 @@ Verdict borne(const SceneRun& run, const Limits& limits) {
 }
 
 /// No triangle crosses another one, except within a cloth without self-contact that may touch other cloths. A triangle
-/// that was split touches nothing.
+/// that was split touches nothing, and neither do those that seams leave out.
 Verdict uncrossed(const SceneRun& run, const Limits&) {
     const std::vector<Cloth>& cloths = run.scene.cloths;
     const bool asked = cloths_meet(run.scene);
     const auto counts = [&](std::size_t one, std::size_t other) {
         return one != other || !asked || cloths[one].self_collision;
     };
+    const SeamCover seams(run.scene);
+    std::vector<std::size_t> all(cloths.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<std::uint32_t> same = seams.cloths.empty() ? std::vector<std::uint32_t>() : seams.joined(all);
     std::vector<TriangleCrossings::Mesh> meshes(cloths.size());
+    std::vector<std::vector<std::uint32_t>> whole;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
-        meshes[cloth].indices = ClothMeasure(run.scene, cloth).grid.triangle_indices();
+        whole.push_back(ClothMeasure(run.scene, cloth).grid.triangle_indices());
     std::size_t worst = 0, worst_frame = 0, split = 0;
     auto cut = run.cuts.begin();
     for (std::size_t frame = 0; frame < run.frames.size(); ++frame) {
         // A cut takes effect in the next frame; the records without a cut describe the start.
         for (; cut != run.cuts.end() && (cut->frame < frame || cut->springs == 0); ++cut) {
-            split += (meshes[cut->cloth].indices.size() - cut->whole.size()) / 3;
-            meshes[cut->cloth].indices = cut->whole;
+            split += (whole[cut->cloth].size() - cut->whole.size()) / 3;
+            whole[cut->cloth] = cut->whole;
         }
         for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth) {
+            meshes[cloth].indices = seams.covered(cloth, whole[cloth]);
             meshes[cloth].points.clear();
             for (std::size_t i = 0; i < run.frames[frame][cloth].size(); ++i)
                 meshes[cloth].points.push_back(run.at(frame, cloth, i));
         }
-        const std::size_t crossings = TriangleCrossings(meshes).count(counts);
+        const std::size_t crossings = TriangleCrossings(meshes, same).count(counts);
         if (crossings > worst) worst = crossings, worst_frame = frame;
     }
     const std::string exception = split > 0 ? fmt::format("; {} that were split do not count", split) : "";

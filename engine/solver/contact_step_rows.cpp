@@ -31,6 +31,10 @@ DispatchSize over_sheet(Place p, const ComputePipeline&) {
 DispatchSize over_cloths(Place p, const ComputePipeline&) {
     return {static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
 }
+DispatchSize over_leaders(Place p, const ComputePipeline&) {
+    const auto count = static_cast<std::uint32_t>(p.step.push<SelfContactPush>().sewn_count);
+    return {(count + glsl::workgroup_width - 1) / glsl::workgroup_width};
+}
 DispatchSize over_parts(Place p, const ComputePipeline&) {
     const auto [across, down] = p.device.over_parts(p.model.self_contact->largest);
     return {across, down, static_cast<std::uint32_t>(p.step.push<SelfContactPush>().cloth_count)};
@@ -89,6 +93,7 @@ std::vector<StepRow> contact_step_rows() {
         returned,
         {self_couples, "self couples", {{plain, "self_couples.comp", over_torque_sums}}},
         turned,
+        of_all(self_sew, "self sew", "self_sew.comp", over_leaders),
     };
 }
 

@@ -54,7 +54,7 @@ bool crossed(Place p) { return p.step.push<glsl::SelfContactPush>().crossed_coun
 int seam_stage(Place p) { return p.step.push<glsl::SeamPush>().stage; }
 bool seam_moves_all(Place p) {
     return seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_released ||
-           seam_stage(p) == glsl::seam_begun;
+           seam_stage(p) == glsl::seam_begun || seam_stage(p) == glsl::seam_met;
 }
 bool seam_leads(Place p) {
     const bool steps = seam_stage(p) == glsl::seam_predicted && !p.model.method().iterates();
@@ -64,7 +64,7 @@ bool seam_has_vectors(Place p) { return seam_stage(p) == glsl::seam_forces || se
 /// Contact writes the position and the displacement of the substep before.
 std::uint32_t sews_touched(Place p) {
     const bool moves = seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_touched;
-    return moves && !p.model.scene.colliders.empty() ? 1u : 0u;
+    return seam_stage(p) == glsl::seam_met || (moves && !p.model.scene.colliders.empty()) ? 1u : 0u;
 }
 
 /// Returns the directions of springs whose tension is known when a frame begins and ends: explicit steps keep none.
@@ -117,6 +117,7 @@ constexpr ConstantRow constant_rows[] = {
     {"member_count", [](Place p) { return static_cast<std::uint32_t>(p.model.member_count); }},
     {"own_rest", [](Place p) { return p.cloth->own_rest(); }},
     {"pays_ahead", [](Place p) { return p.step.last && p.step.substep > 0 && has(p, Field::paid) ? 1u : 0u; }},
+    {"sewn", [](Place p) { return p.model.self_contact->is_sewn() ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
     {"sews_between", [](Place p) { return lies_between(p.cloth->model->sewn) ? 1u : 0u; }},
     {"sews_closing", [](Place p) { return p.model.closings.empty() ? 0u : 1u; }},

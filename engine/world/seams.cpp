@@ -11,7 +11,6 @@
 #include "base/vectors.h"
 #include "world/seam_sides.h"
 #include "world/start.h"
-#include "world/start_crossings.h"
 
 namespace drape {
 
@@ -138,7 +137,6 @@ std::optional<SeamFault> fault_of(const SceneDescription& scene, const Seam& sea
 
 /// Returns what of a scene does not go with seams.
 std::string excluded_by(const SceneDescription& scene) {
-    if (cloths_meet(scene)) return "expected no seams where cloths have self_collision: contact does not know them yet";
     if (std::ranges::any_of(scene.colliders, [](const Collider& collider) { return collider.mass.has_value(); }))
         return "expected no seams beside a body with a mass: what a seam evens out, the body would not get back";
     if (scene.forces) return "expected no seams beside forces: what a seam transmits is not told yet";

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/vectors.h"
+#include "world/seam_cover.h"
 #include "world/start.h"
 #include "world/surface_distance.h"
 #include "world/triangle_crossings.h"
@@ -24,11 +26,24 @@ struct Sheet {
     const Cloth* cloth;
     std::vector<bool> missing;
     std::vector<Vec3> at;
+    std::vector<bool> sewn;              ///< by particle
+    std::vector<std::uint32_t> indices;  ///< of its triangles, without those that seams leave out
     Vec3 lower, upper;
     double doubt;  ///< m: the resolution of single precision here
 
+    Sheet(const SceneDescription& scene, std::size_t index, const SeamCover& seams) : Sheet(scene.cloths[index]) {
+        if (seams.cloths.empty()) return;
+        sewn = seams.cloths[index].sewn;
+        indices = seams.covered(index, start_mesh(*cloth, at).indices);
+    }
     explicit Sheet(const Cloth& of)
-        : cloth(&of), missing(missing_cells(of)), at(start_positions(of)), lower(at[0]), upper(at[0]) {
+        : cloth(&of),
+          missing(missing_cells(of)),
+          at(start_positions(of)),
+          sewn(at.size()),
+          indices(start_mesh(of, at).indices),
+          lower(at[0]),
+          upper(at[0]) {
         double farthest = 0;
         for (const Vec3& x : at)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -39,7 +54,8 @@ struct Sheet {
         doubt = 4e-6 * farthest + of.placement.jitter;
     }
 
-    TriangleCrossings::Mesh mesh() const { return start_mesh(*cloth, at); }
+    TriangleCrossings::Mesh mesh() const { return {at, indices}; }
+    bool is_sewn() const { return std::ranges::find(sewn, true) != sewn.end(); }
 
     /// Returns whether a point is on the flat cloth, or at most `within` (m) away from it.
     bool holds(const Vec3& point, double within) const {
@@ -150,11 +166,12 @@ class Slabs {
     std::size_t across_ = 0, along_ = 1;
 };
 
-/// Returns whether any particle of `a` lies on the triangles of `b`, of any shape.
+/// Returns whether any particle of `a` that no seam joins lies on the triangles of `b`, of any shape.
 bool lies_on(const Sheet& a, const Sheet& b, double within) {
     std::vector<Vec3> near;
-    for (const Vec3& x : a.at) {
-        bool is_near = true;
+    for (std::size_t particle = 0; particle < a.at.size(); ++particle) {
+        const Vec3& x = a.at[particle];
+        bool is_near = !a.sewn[particle];
         for (std::size_t k = 0; k < 3; ++k)
             is_near = is_near && x[k] >= b.lower[k] - within && x[k] <= b.upper[k] + within;
         if (is_near) near.push_back(x);
@@ -178,7 +195,7 @@ bool lies_on(const Sheet& a, const Sheet& b, double within) {
 
 bool touches(const Sheet& a, const Sheet& b, double within) {
     const auto is_rectangle = [](const Sheet& sheet) {
-        return sheet.cloth->start.empty() && sheet.cloth->panel.empty();
+        return sheet.cloth->start.empty() && sheet.cloth->panel.empty() && !sheet.is_sewn();
     };
     if (!is_rectangle(a) || !is_rectangle(b)) return lies_on(a, b, within) || lies_on(b, a, within);
     return std::ranges::any_of(a.at, [&](const Vec3& x) { return b.holds(x, within); }) ||
@@ -192,9 +209,37 @@ bool is_gathered(const Sheet& sheet) {
 
 /// Returns whether a cloth with self-contact crosses itself. If jitter turns no triangle over, as seen along the
 /// normal, no triangles can cross.
-bool crosses_itself(const Sheet& sheet) {
-    if (!sheet.cloth->start.empty()) return TriangleCrossings({sheet.mesh()}).any();
-    return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) && TriangleCrossings({sheet.mesh()}).any();
+bool crosses_itself(const Sheet& sheet, const std::vector<std::uint32_t>& same) {
+    if (!sheet.cloth->start.empty()) return TriangleCrossings({sheet.mesh()}, same).any();
+    return start_height(*sheet.cloth) <= 4 * start_jitter(*sheet.cloth) &&
+           TriangleCrossings({sheet.mesh()}, same).any();
+}
+
+/// Returns the cover of seams that can be sewn; none of others, which are told elsewhere.
+SeamCover cover_of(const SceneDescription& scene) {
+    return seam_faults(scene).empty() ? SeamCover(scene) : SeamCover(SceneDescription());
+}
+
+/// Returns how two cloths start through each other or on each other, if they do. Those that are sewn, to each other or
+/// to others, are not led apart: there is no way that all would go.
+std::optional<StartCrossing> crossing_of(const std::vector<Sheet>& sheets, const SeamCover& seams, std::size_t first,
+                                         std::size_t second) {
+    const Sheet &a = sheets[first], &b = sheets[second];
+    const double within = a.doubt + b.doubt;
+    if (!boxes_meet(a, b, within)) return std::nullopt;
+    const std::vector<std::uint32_t> same =
+        seams.are_sewn(first, second) ? seams.joined({first, second}) : std::vector<std::uint32_t>();
+    const std::size_t crossings =
+        TriangleCrossings({a.mesh(), b.mesh()}, same)
+            .count([](std::size_t one, std::size_t other) { return one != other; }, StartCrossing::most_counted);
+    if (crossings == 0 && !touches(a, b, within)) return std::nullopt;
+    const WayOff off = shorter_way_off(a, b);
+    const bool are_free = !a.is_sewn() && !b.is_sewn();
+    return StartCrossing{.first = first,
+                         .second = second,
+                         .triangles = crossings,
+                         .depth = std::isfinite(off.depth) ? off.depth : 0,
+                         .way = are_free ? off.way : Vec3{}};
 }
 
 }  // namespace
@@ -204,33 +249,22 @@ bool cloths_meet(const SceneDescription& scene) {
 }
 
 std::vector<StartCrossing> start_crossings(const SceneDescription& scene) {
+    const SeamCover seams = cover_of(scene);
     std::vector<Sheet> sheets;
-    for (const Cloth& cloth : scene.cloths) sheets.emplace_back(cloth);
+    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) sheets.emplace_back(scene, cloth, seams);
     std::vector<StartCrossing> all;
     for (std::size_t cloth = 0; cloth < sheets.size(); ++cloth) {
         if (!scene.cloths[cloth].self_collision) continue;
-        const bool gathered = is_gathered(sheets[cloth]), crosses = !gathered && crosses_itself(sheets[cloth]);
+        const std::vector<std::uint32_t> same =
+            sheets[cloth].is_sewn() ? seams.joined({cloth}) : std::vector<std::uint32_t>();
+        const bool gathered = is_gathered(sheets[cloth]), crosses = !gathered && crosses_itself(sheets[cloth], same);
         const double untied = gathered || crosses ? 0 : start_untied(scene.cloths[cloth], sheets[cloth].at);
         if (gathered || crosses || untied > 0)
             all.push_back({.first = cloth, .second = cloth, .untied = untied, .gathered = gathered});
     }
     for (std::size_t second = 1; second < sheets.size(); ++second)
-        for (std::size_t first = 0; first < second; ++first) {
-            const Sheet &a = sheets[first], &b = sheets[second];
-            const double within = a.doubt + b.doubt;
-            if (!boxes_meet(a, b, within)) continue;
-            const std::size_t crossings = TriangleCrossings({a.mesh(), b.mesh()})
-                                              .count([](std::size_t one, std::size_t other) { return one != other; },
-                                                     StartCrossing::most_counted);
-            if (crossings > 0 || touches(a, b, within)) {
-                const WayOff off = shorter_way_off(a, b);
-                all.push_back({.first = first,
-                               .second = second,
-                               .triangles = crossings,
-                               .depth = std::isfinite(off.depth) ? off.depth : 0,
-                               .way = off.way});
-            }
-        }
+        for (std::size_t first = 0; first < second; ++first)
+            if (auto crossing = crossing_of(sheets, seams, first, second)) all.push_back(*crossing);
     return all;
 }
 

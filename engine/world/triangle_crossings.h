@@ -25,13 +25,16 @@ class TriangleCrossings {
         std::vector<std::uint32_t> indices;  ///< three points per triangle
     };
 
-    explicit TriangleCrossings(const std::vector<Mesh>& meshes) {
+    /// `same`: by point of all meshes in turn, the first one that is the same corner; empty: each is one of its own.
+    explicit TriangleCrossings(const std::vector<Mesh>& meshes, const std::vector<std::uint32_t>& same = {}) {
+        const auto corner = [&](std::uint32_t point) { return same.empty() ? point : same[point]; };
         for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh) {
             const auto first = static_cast<std::uint32_t>(points_.size());
             const std::vector<std::uint32_t>& indices = meshes[mesh].indices;
             points_.insert(points_.end(), meshes[mesh].points.begin(), meshes[mesh].points.end());
             for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-                triangles_.push_back({first + indices[i], first + indices[i + 1], first + indices[i + 2]});
+                triangles_.push_back(
+                    {corner(first + indices[i]), corner(first + indices[i + 1]), corner(first + indices[i + 2])});
             mesh_.resize(triangles_.size(), mesh);
         }
         order_.resize(triangles_.size());

@@ -99,6 +99,13 @@ SHARED float self_pair_thickness(float thickness, SelfCloth one, SelfCloth other
     return far || !self_same_cloth(one, other) ? thickness : least;
 }
 
+/// Returns the thickness of a pair with a corner at a seam: what the other side of the seam has there is no farther in
+/// the flat cloth than the nearest primitives of a grid, and keeps half of that at most.
+SHARED float self_thickness_at_seam(float thickness, SelfCloth one, SelfCloth other) {
+    precise float half_flat = self_least(one.least_flat, other.least_flat) * 0.5f;
+    return self_least(thickness, half_flat);
+}
+
 /// Returns a bound on how much nearer a pair's corners come along its normal in a substep, before contact corrects it,
 /// whatever part of their motions they make.
 SHARED float self_approach(bool edges, SelfGap gap, SelfCorners motions) {

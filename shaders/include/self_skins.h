@@ -1,10 +1,12 @@
 // The thickness and friction of particles on the sheet, where a cloth has maps of them. The includer has
-// include/self_cloths.h.
+// include/self_cloths.h and include/self_sewn.h.
 layout(constant_id = 19) const bool has_skins = false;
 // By place; x: thickness kept between layers, m; y: square root of the friction coefficient.
 layout(set = 0, binding = 15, std430) readonly buffer Skins { vec2 skins[]; };
 
 vec2 skin_at(uint corner) { return skins[place_of(self_texel(corner))]; }
+
+bool is_sewn(uint corner) { return sewn_corners[place_of(self_texel(corner))].inverse_mass > 0.0f; }
 
 /// Returns the thickness that a pair keeps, m, and its friction. `weights`: those of its gap.
 vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
@@ -21,5 +23,8 @@ vec2 pair_skin(bool edges, uvec4 pair, vec4 weights) {
     float kept =
         self_pair_thickness(thickness, one, other, edges, self_texel(pair.x) - corner, self_texel(pair.y) - corner,
                             self_texel(pair.z) - corner, self_texel(pair.w) - corner);
+    if (sewn)
+        if (is_sewn(pair.x) || is_sewn(pair.y) || is_sewn(pair.z) || is_sewn(pair.w))
+            kept = self_thickness_at_seam(kept, one, other);
     return vec2(kept, friction);
 }

@@ -1,5 +1,6 @@
 // Sums of impulses by place (include/self_impulse.h). Where `wide`, a 64-bit atomic adds both parts of a component,
-// which halves the atomics. The includer defines SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT.
+// which halves the atomics. The includer defines SUMS_SLOT, the binding, and where it reads sums SUMS_IN_SLOT. Where it
+// adds to them it has include/self_sewn.h.
 layout(constant_id = 25) const bool wide = false;
 
 #ifndef SUMS_SHEET
@@ -15,7 +16,7 @@ layout(set = 0, binding = SUMS_SLOT, std430) buffer Sums { uvec4 sums_out[]; }
 sums;
 uint64_t whole(ivec2 parts) { return uint64_t(int64_t(parts.x) + int64_t(parts.y) * 1048576l); }
 void add_parts(int which, uint corner, SelfParts parts) {
-    int at = sum_at(which, place_of(self_texel(corner)));
+    int at = sum_at(which, leader_of(place_of(self_texel(corner))));
     if (wide) {
         atomicAdd(wide_sums.sums_out[at].x, whole(parts.x));
         atomicAdd(wide_sums.sums_out[at].y, whole(parts.y));
@@ -31,7 +32,7 @@ void add_parts(int which, uint corner, SelfParts parts) {
 }
 /// Adds the weight with which a pair holds a corner, and counts the pair.
 void add_weight(uint corner, uint weight) {
-    int at = sum_at(0, place_of(self_texel(corner))) + 1;
+    int at = sum_at(0, leader_of(place_of(self_texel(corner)))) + 1;
     if (wide) {
         atomicAdd(wide_sums.sums_out[at].y, uint64_t(weight) + 0x100000000ul);
         return;

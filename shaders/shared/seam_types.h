@@ -9,9 +9,10 @@ namespace drape::glsl {
 #endif
 
 /// What a cloth's sewn particles hand on: how the prediction or the pins moved them, whether pins hold them, how the
-/// springs moved them, how contact did, the force on them, their normals, and how they moved before a substep.
+/// springs moved them, how contact with colliders did, the force on them, their normals, how they moved before a
+/// substep, and how contact between cloths moved them.
 const int seam_predicted = 0, seam_released = 1, seam_solved = 2, seam_touched = 3, seam_forces = 4, seam_normals = 5,
-          seam_begun = 6;
+          seam_begun = 6, seam_met = 7;
 
 struct SeamPush {
     int particle_count;  // the cloth's, at seams

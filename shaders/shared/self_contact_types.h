@@ -85,8 +85,19 @@ struct SelfCloth {
     float lightness;   // factor from its particles' relative inverse masses to those of its scene's first cloth
     float least;       // m, distances that rounding leaves in doubt in its scene
     float largest;     // m, the largest thickness that a cloth of its scene keeps
-    int held;          // 1: some of its particles are held at first
-    int unused;
+    int held;          // 1: some particles of it, or of cloths that it is sewn to, are held at first
+    int body;          // index of the first of the cloths that it is sewn to, its own where it is sewn to none
+};
+
+/// What seams make of a place on the sheet. Particles that are one are corners of their own, which lie alike: impulses
+/// and shares of motions are summed at the leader, which moves them all.
+struct SelfSewn {
+    int leader;          // the place of the particle that it follows, its own where it follows none
+    int next;            // the place of the next particle that follows the same leader, or -1
+    uint left_out;       // bits of its cell's triangles that meet nothing, for good (0, 1) or until their seams have
+                         // closed (2, 3); from bit 4 on: which of the openings is the last of these seams'
+    float inverse_mass;  // of all that is sewn there, over that of an inner particle of its cloth; 0: it is not sewn
+    float thickness;     // m, the least that the cloths there keep
 };
 
 /// Two cloths that started through each other, and how they are worked apart.
@@ -128,6 +139,8 @@ struct SelfContactPush {
     int touching_capacity;  // capacity of the list of pairs that touch, and of what they bore
     SelfCloth cloth;        // the first cloth, looked up here where it is the only one
     ivec2 member_size;      // columns, rows of a member's rectangle
+    int sewn_count;         // particles that others follow
+    int unused;
 };
 
 /// Push constants of the passes between a cloth's own fields and the sheet.
@@ -141,6 +154,8 @@ struct SelfClothPush {
     float thickness;   // m kept between the cloth's own layers
     int member;        // whose cloth it is
     int member_count;  // of those on the sheet
+    int opening;       // the first of the substep's openings
+    int body;          // SelfCloth::body
 };
 
 /// Contact between the scene's cloths in a frame's substeps so far, m. Counts include entries that found no room. Each

@@ -153,6 +153,47 @@ TEST(Crossings, AreProvedOfAllTrianglesBeforeACutActs) {
     EXPECT_THAT(outcome.err, Not(HasSubstr("note: ")));
 }
 
+// Two sheets hang on each other, their seam has 9 and 7 particles.
+const std::string sewn_of_unlike_sides = R"({"name": "sewn", "time": {"frames": 4},
+"cloths": [{"name": "upper", "grid": [9, 5], "size": [1, 0.5], "self_collision": true, "pins": [{"edge": "top"}],
+            "placement": {"origin": [-0.5, 1, 0]}},
+           {"name": "lower", "grid": [7, 5], "size": [1, 0.5], "self_collision": true,
+            "placement": {"origin": [-0.5, 0.5, 0]}}],
+"seams": [{"a": {"cloth": "upper", "edge": "bottom"}, "b": {"cloth": "lower", "edge": "top"}}],
+"solver": {"method": "line", "substeps": 4}})";
+
+TEST(Crossings, OfTrianglesBesideSeamsAreNotDenied) {
+    const SceneFolder folder(sewn_of_unlike_sides);
+    const auto contact_with = [&](const std::vector<std::string>& overrides) {
+        std::vector<std::string> arguments{"simulate", folder.scene(), "-o", folder.out(), "-q", "--overwrite"};
+        for (const std::string& each : overrides) arguments.insert(arguments.end(), {"--set", each});
+        const Outcome outcome = drape(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return lasting_manifest(folder / "out")["self_collision"];
+    };
+    // Six of the upper one's nine lie between two: each is a corner of triangles in two cells, which share some.
+    const Json::Value unlike = contact_with({});
+    ASSERT_EQ(unlike["beside_seams"].size(), 1u);
+    EXPECT_EQ(unlike["beside_seams"][0]["cloth"].asString(), "upper");
+    EXPECT_EQ(unlike["beside_seams"][0]["triangles"].asUInt(), 14u);
+    EXPECT_EQ(unlike["beside_seams"][0]["closing"].asUInt(), 0u);
+    EXPECT_TRUE(unlike["proved"].asBool());
+    EXPECT_EQ(
+        unlike["certificate"].asString(),
+        "no crossing of covered triangles in any substep; not covered: 14 triangles beside seams of unlike sides");
+
+    const Json::Value alike = contact_with({"/cloths/1/grid=[9,5]"});
+    EXPECT_FALSE(alike.isMember("beside_seams"));
+    EXPECT_EQ(alike["certificate"].asString(), "no crossing in any substep");
+
+    const Json::Value closing = contact_with({"/cloths/1/grid=[9,5]", "/seams/0/close=0.5"});
+    ASSERT_EQ(closing["beside_seams"].size(), 2u);
+    EXPECT_EQ(closing["beside_seams"][1]["triangles"].asUInt(), 0u);
+    EXPECT_EQ(closing["beside_seams"][1]["closing"].asUInt(), 16u);
+    EXPECT_THAT(closing["certificate"].asString(),
+                HasSubstr("; not covered: 32 triangles beside seams that close, the last at 0.5 s"));
+}
+
 TEST(Crossings, AreCountedByClothFromTheFirstFrameOn) {
     const std::vector<Manifest::Cut> cuts{
         {3, "a", 2, 0, 0, 1}, {4, "b", 9, 0, 5, 1}, {7, "a", 3, 3, 1, 1}, {8, "b", 9, 0, 6, 2}, {9, "a", 3, 0, 4, 1}};

@@ -44,7 +44,7 @@ const std::vector<StepBound>& step_bounds() {
         {decide, 0, fixed, 0, "integers; no scene is near its tolerance"},
         {advance, 8, fixed, 0, "a division and a root"},
         {clear_impulses, 0, fixed, 0, "zeros"},
-        {body_move, -1, fixed, 0, "twin_bodies_test compares frames: single steps leave the colliders that follow"},
+        {body_move, -1, fixed, 0, "single steps write no colliders that follow: twin_bodies_test compares frames"},
         {body_strike, -1, fixed, 0, "as body_move"},
         {momentum, 0, fixed, 0, "products, and sums of integers; no scene has what rounds otherwise"},
         {worst_impulses, 0, fixed, 0, "integers, compared by the squares of what they round to"},
@@ -66,6 +66,7 @@ const std::vector<StepBound>& step_bounds() {
         {self_return, 16, fixed, 0, "products and a division"},
         {self_couples, 64, fixed, 0, "as torque"},
         {self_turn, 64, fixed, 0, "as rotate"},
+        {self_sew, 0, fixed, 0, "copies of what the twin's other steps left"},
     };
     return bounds;
 }

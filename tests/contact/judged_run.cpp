@@ -5,6 +5,7 @@
 #include <set>
 
 #include "drape/error.h"
+#include "world/seam_cover.h"
 
 namespace drape::test {
 
@@ -21,14 +22,14 @@ bool is_finite(const FinishedFrame& frame) {
     });
 }
 
-SeenFrame see(const Simulation& simulation) {
+SeenFrame see(const Simulation& simulation, const SeamCover& seams) {
     const FinishedFrame& frame = simulation.frame();
     std::vector<FloatMesh> meshes(frame.positions.size());
     for (std::size_t cloth = 0; cloth < meshes.size(); ++cloth) {
         const std::span<const float> at = frame.positions[cloth];
         for (std::size_t i = 0; i + 3 < at.size(); i += 4)
             meshes[cloth].points.push_back({at[i], at[i + 1], at[i + 2]});
-        const std::vector<std::uint32_t> corners = simulation.triangles(cloth);
+        const std::vector<std::uint32_t> corners = seams.covered(cloth, simulation.triangles(cloth));
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             meshes[cloth].triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
     }
@@ -55,11 +56,12 @@ JudgedRun judged_run(const SceneDescription& scene, const Device& device) {
     options.timings = Timings::none;
     options.keep_promises = false;  // a cloth stretched beyond reason must not cross itself either
     Simulation simulation(scene, options, device);
+    const SeamCover seams(simulation.scene());
     std::vector<SeenFrame> seen;
     JudgedRun judged;
     try {
         while (simulation.step() && is_finite(simulation.frame())) {
-            seen.push_back(see(simulation));
+            seen.push_back(see(simulation, seams));
             judged.implausible |= simulation.frame().failure.has_value();
         }
     } catch (const Error& error) {

@@ -90,4 +90,82 @@ inline SceneDescription tube(SolverMethod method) {
     return scene;
 }
 
+/// A ground on which sewn cloths that meet themselves and each other fall. `thickness`: in edges of the first one.
+inline void fall_on_ground(SceneDescription& scene, double thickness) {
+    const double edge = scene.cloths[0].size[0] / (scene.cloths[0].grid[0] - 1);
+    for (Cloth& cloth : scene.cloths) {
+        cloth.self_collision = SelfCollision{thickness * edge, {}};
+        cloth.damping = 1;
+        cloth.friction = 0.4;
+    }
+    Collider ground{Plane{}};
+    ground.friction = 0.6;
+    scene.colliders = {ground};
+}
+
+/// A tube that is one cloth stands on the ground, thrown aslant, and falls over and together. Its seam has matched
+/// sides.
+inline SceneDescription falling_tube(SolverMethod method, std::uint32_t substeps = sewn_substeps) {
+    SceneDescription scene = tube(method);
+    scene.solver.substeps = substeps;
+    Cloth& cloth = scene.cloths[0];
+    cloth.pins.clear();
+    for (Vec3& at : cloth.start) at[1] += 0.405;
+    cloth.velocity = {1.5, -1, 0.4};
+    cloth.stiffness = {false, 200, 40, 1e-5};
+    fall_on_ground(scene, 0.3);
+    return scene;
+}
+
+/// Two squares of n x n particles, sewn along all borders, bulge, come together and fall on the ground, where the
+/// pressure in them grows.
+inline SceneDescription dropped_cushion(SolverMethod method, std::uint32_t n, std::uint32_t substeps = sewn_substeps) {
+    SceneDescription scene = sheet(n, n, 0.5, 0.5, substeps, 1);
+    scene.solver.method = method;
+    Cloth& top = scene.cloths[0];
+    top.name = "top";
+    top.areal_density = 0.3;
+    top.stiffness = {false, 400, 60, 1e-5};
+    Cloth bottom = top;
+    bottom.name = "bottom";
+    bottom.areal_density = 0.2;
+    scene.cloths.push_back(bottom);
+    for (const double side : {1.0, -1.0}) {
+        Cloth& cloth = scene.cloths[side > 0 ? 0 : 1];
+        for (std::uint32_t row = 0; row < n; ++row)
+            for (std::uint32_t column = 0; column < n; ++column) {
+                const double u = column / (n - 1.0), v = row / (n - 1.0);
+                const bool border = row == 0 || column == 0 || row == n - 1 || column == n - 1;
+                const double high = border ? 0 : 0.04 * std::sin(std::numbers::pi * u) * std::sin(std::numbers::pi * v);
+                cloth.start.push_back({0.5 * u - 0.25, 0.2 + 0.15 * v + side * high, 0.48 * v - 0.25});
+            }
+        cloth.placement = {};
+        cloth.velocity = {0.3, -2.0 - side, 0};
+        Load& blown = cloth.loads.emplace_back();
+        blown.particles = {{0, 0}, {n - 1, n - 1}};
+        blown.pressure_keys = {{0, 0}, {0.5, 0}, {0.8, -30 * side}};
+    }
+    for (const SeamEdge edge : {SeamEdge::left, SeamEdge::right, SeamEdge::top, SeamEdge::bottom})
+        scene.seams.push_back({{"top", edge}, {"bottom", edge}});
+    fall_on_ground(scene, 0.25);
+    return scene;
+}
+
+/// Three panels that hang from one another, of which two are drawn together before they meet, fold on the ground.
+/// Sides are unlike where `unlike`.
+inline SceneDescription folding_panels(SolverMethod method, bool unlike, std::uint32_t substeps = sewn_substeps) {
+    SceneDescription scene = unlike ? unlike_panels(method, 0.06) : two_panels(method);
+    scene.solver.substeps = substeps;
+    scene.wind = {};
+    for (Cloth& cloth : scene.cloths) {
+        cloth.pins.clear();
+        cloth.velocity = {0.2, -1.5, 0};
+        cloth.stiffness = {false, 200, 40, 1e-5};
+        cloth.placement.origin[1] -= 0.35;
+    }
+    if (!unlike) scene.cloths[1].placement.v = {0, std::sqrt(0.75), -0.5};
+    fall_on_ground(scene, 0.25);
+    return scene;
+}
+
 }  // namespace drape::test

@@ -2,6 +2,7 @@
 // so it shows any pair that the device's tree misses.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -26,6 +27,8 @@ class ContactStep {
     void contact();
     void push();
     void limit();
+    void sew_surfaces();
+    void sew_motions();
     void count_lists();
     void cut_short(std::size_t cloth);
 
@@ -54,6 +57,25 @@ class ContactStep {
         return self_boxes_meet(contact_.boxes[a], contact_.boxes[b], push_,
                                self_mean_thickness(cloth_at(a), cloth_at(b)));
     }
+    /// The place at which what contact does to a particle is summed.
+    uint leader(std::size_t place) const {
+        return model_.is_sewn() ? static_cast<uint>(model_.sewn[place].leader) : static_cast<uint>(place);
+    }
+    /// The first of the cloths that are sewn to the one at a place.
+    std::size_t body_at(std::size_t place) const { return static_cast<std::size_t>(cloth_at(place).body); }
+    bool is_sewn(std::size_t place) const { return model_.is_sewn() && model_.sewn[place].inverse_mass > 0.0f; }
+    float own_thickness(std::size_t place) const {
+        return model_.is_sewn() ? model_.sewn[place].thickness : cloth_at(place).thickness;
+    }
+    /// Calls for a leader's place and for those of all that follow it.
+    template <class Visit>
+    void for_sewn(std::size_t leader, const Visit& visit) const {
+        visit(leader);
+        for (int next = model_.is_sewn() ? model_.sewn[leader].next : -1; next >= 0;
+             next = model_.sewn[static_cast<std::size_t>(next)].next)
+            visit(static_cast<std::size_t>(next));
+    }
+    float led_by_colliders(std::size_t place) const;
     SelfCell cell(std::size_t place) const;
     bool inside(const SelfCloth& cloth, ivec2 texel) const {
         return texel.x - cloth.first.x < cloth.grid.x && texel.y - cloth.first.y < cloth.grid.y;
@@ -71,8 +93,8 @@ class ContactStep {
     vec3 bounded(uint place) const {
         vec3 moved = displacement(place);
         if (!held(place))
-            moved = self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried),
-                                 cloth_at(place).thickness);
+            moved =
+                self_bounded(moved, xyz(contact_.before[place]), xyz(contact_.record.carried), own_thickness(place));
         return self_relative_motion(moved, xyz(contact_.record.carried));
     }
     template <class Of>
@@ -98,9 +120,10 @@ class ContactStep {
             both = {self_thickness_there(weights, {skins[0].x, skins[1].x, skins[2].x, skins[3].x}),
                     self_friction_there(pair.edges, weights, {skins[0].y, skins[1].y, skins[2].y, skins[3].y})};
         }
-        return {self_pair_thickness(both.x, one, other, pair.edges, self_texel(all.x), self_texel(all.y),
-                                    self_texel(all.z), self_texel(all.w)),
-                both.y};
+        const float kept = self_pair_thickness(both.x, one, other, pair.edges, self_texel(all.x), self_texel(all.y),
+                                               self_texel(all.z), self_texel(all.w));
+        const bool at_seam = std::ranges::any_of(places(pair), [this](uint at) { return is_sewn(at); });
+        return {at_seam ? self_thickness_at_seam(kept, one, other) : kept, both.y};
     }
     SelfBox point_box(uint place) const { return self_point_box(position(place), motion(place)); }
     SelfBox slab(uint corner, vec3 axis) const {
@@ -126,8 +149,8 @@ class ContactStep {
     void share_in_cloths();
     /// Returns the share of its motion that a particle makes after the last round.
     float made_by(uint place) const {
-        const auto& [whole, least] = contact_.cloth_shares[static_cast<std::size_t>(contact_.owners[place])];
-        return push_.round > 0 && whole && !held(place) ? least : contact_.shares[place];
+        const auto& [whole, least] = contact_.cloth_shares[body_at(place)];
+        return push_.round > 0 && whole && !held(place) ? least : contact_.shares[leader(place)];
     }
     void add_parts(std::size_t which, uint corner, const SelfParts& parts);
     void add_couple(const TwinPair& pair, vec4 weights, vec3 impulse);

@@ -35,7 +35,9 @@ void for_sewn(const TwinPlace& where, const Give& give) {
 }
 
 int stage_of(const TwinPlace& where) { return where.step.push<SeamPush>().stage; }
-bool moves_all(int stage) { return stage == seam_predicted || stage == seam_released || stage == seam_begun; }
+bool moves_all(int stage) {
+    return stage == seam_predicted || stage == seam_released || stage == seam_begun || stage == seam_met;
+}
 bool has_vectors(int stage) { return stage == seam_forces || stage == seam_normals; }
 
 std::vector<vec4>& vectors_of(const TwinPlace& where) {
@@ -45,7 +47,8 @@ std::vector<vec4>& vectors_of(const TwinPlace& where) {
 /// Returns whether contact has written the position and the displacement of the substep before.
 bool touches(const TwinPlace& where) {
     const int stage = stage_of(where);
-    return (stage == seam_predicted || stage == seam_touched) && !where.scene.scene.colliders.empty();
+    return stage == seam_met ||
+           ((stage == seam_predicted || stage == seam_touched) && !where.scene.scene.colliders.empty());
 }
 
 /// Returns how much is left of a particle's gap.
@@ -58,7 +61,8 @@ glsl::vec2 left_of(const TwinPlace& where, const SewnParticle& sewn) {
 vec3 place_of(const TwinPlace& where, const SewnParticle& sewn, vec3 at) {
     if (sewn.between.z < 0) return at;
     const glsl::vec2 left = left_of(where, sewn);
-    return sewn_together(at, xyz(sewn.gap), stage_of(where) == seam_touched ? left.y : left.x);
+    return sewn_together(at, xyz(sewn.gap),
+                         stage_of(where) == seam_touched || stage_of(where) == seam_met ? left.y : left.x);
 }
 
 vec3 lead_of(const TwinPlace& where, std::size_t own) { return xyz(where.state[Field::sewn_leads][own]); }

@@ -2,6 +2,7 @@
 // device's tree misses.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "cloth/texels.h"
@@ -168,6 +169,8 @@ void ContactStep::add_triangles(ivec2 particle, ivec2 cell, vec3 axis) {
 void ContactStep::add_pair(const TwinPair& pair, vec3 axis) {
     const uvec4& all = pair.corners;
     if (self_shares_corner(pair.edges, all)) return;
+    const auto at = [&](uint corner) { return leader(place(corner)); };
+    if (self_shares_corner(pair.edges, {at(all.x), at(all.y), at(all.z), at(all.w)})) return;
     const float mean = self_mean_thickness(cloth_of(all.x), cloth_of(all.w));
     const SelfBox one = pair.edges ? slab(axis, all.x, all.y) : slab(all.x, axis),
                   other = pair.edges ? slab(axis, all.z, all.w) : slab(axis, all.y, all.z, all.w);
@@ -190,13 +193,14 @@ void ContactStep::touch(const TwinPair& pair, const SelfGap& gap, float friction
     const float freedom = self_freedom(gap.distance, kept, push_.step);
     contact_.touching.push_back({pair.edges, {all, gap.weights, texel(gap.normal, freedom), texel(begun, friction)}});
     const auto corner = places(pair);
-    for (std::size_t k = 0; k < 4; ++k) contact_.sums[corner[k]].weight += self_weight(component(gap.weights, k));
+    for (std::size_t k = 0; k < 4; ++k)
+        contact_.sums[leader(corner[k])].weight += self_weight(component(gap.weights, k));
     add_impulse(0, pair.edges, all, gap.weights, begun);
 }
 
 void ContactStep::add_parts(std::size_t which, uint corner, const SelfParts& parts) {
     const auto units = [](ivec2 both) { return std::int64_t{both.x} + std::int64_t{both.y} * (1 << 20); };
-    auto& sum = contact_.sums[place(corner)].units[which];
+    auto& sum = contact_.sums[leader(place(corner))].units[which];
     sum[0] += units(parts.x);
     sum[1] += units(parts.y);
     sum[2] += units(parts.z);
@@ -218,7 +222,7 @@ void ContactStep::add_couple(const TwinPair& pair, vec4 weights, vec3 impulse) {
 }
 
 vec3 ContactStep::impulse_at(std::size_t round, uint place) const {
-    return summed(contact_.sums[place], round, cloth_at(place).largest);
+    return summed(contact_.sums[leader(place)], round, cloth_at(place).largest);
 }
 
 vec3 ContactStep::motion_in_round(uint place, float mass) const {
@@ -235,7 +239,7 @@ void ContactStep::work(TwinTouch& pair) {
     std::array<vec3, 4> moved{};
     for (std::size_t k = 0; k < 4; ++k) {
         mass[k] = mass_of(corner[k], k == 0 || (k == 1 && pair.edges) ? one : other);
-        holds[k] = self_holds(contact_.sums[place(corner[k])].weight);
+        holds[k] = self_holds(contact_.sums[leader(place(corner[k]))].weight);
         moved[k] = motion_in_round(place(corner[k]), mass[k]);
     }
     SelfTouch& touch = pair.touch;
@@ -265,7 +269,7 @@ void ContactStep::contact() {
 void ContactStep::push() {
     for (std::size_t i = 0; i < contact_.before.size(); ++i) {
         const auto at = static_cast<uint>(i);
-        if (!owned(i) || held(at)) continue;
+        if (!owned(i) || held(at) || leader(i) != at) continue;
         const bool led = !contact_.led.empty();
         const vec3 by = led ? contact_.led[static_cast<std::size_t>(contact_.owners[i])] : vec3{};
         const vec3 impulse = impulse_at(self_iterations, at);
@@ -274,15 +278,59 @@ void ContactStep::push() {
         const float mass = inverse_mass(at) * cloth_at(i).lightness;
         vec3 velocity = self_added(changed(at), self_moved_by(impulse, mass));
         if (led) velocity = self_led(velocity, by);
-        if (looks_back_) {
-            contact_.last_motions[i] = texel(velocity);
-            continue;
-        }
         const vec3 leading = self_moved_by(impulse_at(self_sum_of_thickness, at), mass);
         const vec3 good = self_led_by(leading, support_normal(contact_.supports[i]));
-        contact_.velocities[i] = texel(velocity);
-        contact_.made_good[i] = texel(good);
-        move_to(i, self_added(velocity, good));
+        for_sewn(i, [&](std::size_t each) {
+            if (looks_back_) {
+                contact_.last_motions[each] = texel(velocity);
+                return;
+            }
+            contact_.velocities[each] = texel(velocity);
+            contact_.made_good[each] = texel(good);
+            move_to(each, self_added(velocity, good));
+        });
+    }
+}
+
+void ContactStep::sew_surfaces() {
+    for (const int first : model_.sewn_leaders) {
+        const auto lies = [&](std::size_t place) {
+            const vec3 normal = support_normal(contact_.supports[place]);
+            return normal.x != 0.0f || normal.y != 0.0f || normal.z != 0.0f;
+        };
+        std::optional<Support> found;
+        for_sewn(static_cast<std::size_t>(first), [&](std::size_t each) {
+            if (!found && lies(each)) found = contact_.supports[each];
+        });
+        if (found)
+            for_sewn(static_cast<std::size_t>(first), [&](std::size_t each) { contact_.supports[each] = *found; });
+    }
+}
+
+/// Returns the square of the way by which colliders have led a particle since impulses did.
+float ContactStep::led_by_colliders(std::size_t place) const {
+    const float by = contact_.before[place].w;
+    vec3 left = xyz(contact_.before[place]);
+    if (by == self_pushed || by == self_pushed_and_led)
+        left = self_added(xyz(contact_.velocities[place]), xyz(contact_.made_good[place]));
+    return self_squared(self_own_motion(displacement(static_cast<uint>(place)), left));
+}
+
+void ContactStep::sew_motions() {
+    for (const int first : model_.sewn_leaders) {
+        auto farthest = static_cast<std::size_t>(first);
+        for_sewn(static_cast<std::size_t>(first), [&](std::size_t each) {
+            if (led_by_colliders(each) > led_by_colliders(farthest)) farthest = each;
+        });
+        const vec3 motion = displacement(static_cast<uint>(farthest));
+        const bool changed = led_by_colliders(farthest) > 0.0f && contact_.before[farthest].w == 0.0f;
+        const vec4 led = changed ? vec4{} : contact_.led_ways[farthest];
+        const float by = changed ? self_led_out : contact_.before[farthest].w;
+        for_sewn(static_cast<std::size_t>(first), [&](std::size_t each) {
+            move_to(each, motion);
+            contact_.led_ways[each] = led;
+            contact_.before[each].w = by;
+        });
     }
 }
 
@@ -303,9 +351,8 @@ void ContactStep::limit() {
             const uint at = corner[k];
             const float share = self_share(gap, middle, component(end, k), corner_side(edges, static_cast<int>(k)),
                                            component(all, k), component(made, k), held(at), cloth_at(at).least);
-            next[at] = std::min(next[at], share);
-            if (push_.round == 0 && !held(at) && contact_.owners[corner[0]] != contact_.owners[corner[3]])
-                leave_behind(at, share);
+            next[leader(at)] = std::min(next[leader(at)], share);
+            if (push_.round == 0 && !held(at) && body_at(corner[0]) != body_at(corner[3])) leave_behind(at, share);
         }
     }
     contact_.shares = next;
@@ -316,7 +363,7 @@ void ContactStep::limit() {
 void ContactStep::leave_behind(uint place, float share) {
     const SelfCloth& cloth = cloth_at(place);
     if (cloth.held == 0 && self_stays_behind(bounded(place), share, cloth.spacing))
-        contact_.cloth_shares[static_cast<std::size_t>(contact_.owners[place])].first = true;
+        contact_.cloth_shares[body_at(place)].first = true;
 }
 
 /// Finds the least share of a particle of each cloth.
@@ -326,7 +373,7 @@ void ContactStep::share_in_cloths() {
         const auto at = static_cast<uint>(i);
         const float share = contact_.shares[i];
         if (!owned(i) || held(at) || !(share < 1.0f)) continue;
-        auto& [whole, least] = contact_.cloth_shares[static_cast<std::size_t>(contact_.owners[i])];
+        auto& [whole, least] = contact_.cloth_shares[body_at(i)];
         least = std::min(least, share);
     }
 }
@@ -346,14 +393,14 @@ void ContactStep::cut_short(std::size_t cloth) {
     for (std::size_t i = 0; i < contact_.shares.size(); ++i) {
         if (contact_.owners[i] != static_cast<int>(cloth)) continue;
         const auto at = static_cast<uint>(i);
-        const auto& [whole, least] = contact_.cloth_shares[cloth];
-        const float share = whole && !held(at) ? least : contact_.shares[i];
+        const auto& [whole, least] = contact_.cloth_shares[body_at(i)];
+        const float share = whole && !held(at) ? least : contact_.shares[leader(i)];
         if (held(at)) {
             record.unproved += share < 1.0f ? 1 : 0;
             continue;
         }
         const vec3 moved = displacement(at);
-        const vec3 bound = self_bounded(moved, xyz(contact_.before[i]), xyz(record.carried), cloth_at(i).thickness);
+        const vec3 bound = self_bounded(moved, xyz(contact_.before[i]), xyz(record.carried), own_thickness(i));
         const bool is_cut = share < 1.0f || bound.x != moved.x || bound.y != moved.y || bound.z != moved.z;
         const float by = contact_.before[i].w;
         const bool pushed = by == self_pushed || by == self_pushed_and_led;
@@ -390,6 +437,7 @@ void Twin::run_contact(const Step& step) {
         {StepKind::self_limit, &ContactStep::limit},
     };
     ContactStep contact(*contact_, step.push<SelfContactPush>(), step.looks_back, step.last);
+    if (step.kind == StepKind::self_sew) return step.after_impulses ? contact.sew_motions() : contact.sew_surfaces();
     for (const auto& [kind, function] : rows)
         if (kind == step.kind) (contact.*function)();
 }

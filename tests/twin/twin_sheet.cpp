@@ -59,14 +59,28 @@ void begin_contact(TwinContact& contact, const SelfClothPush& push) {
     record.cell_count = 0;
 }
 
+/// Returns bits of a cell's triangles that meet nothing, for their seams' sake.
+std::uint32_t left_out(const SelfSewn& sewn, const SelfClothPush& push, const FrameInputs& inputs) {
+    std::uint32_t bits = sewn.left_out & 3u;
+    const std::size_t opening = static_cast<std::size_t>(push.opening) + (sewn.left_out >> 4);
+    if (!inputs.openings.empty() && inputs.openings[opening].left.y != 0.0f) bits |= (sewn.left_out >> 2) & 3u;
+    return bits;
+}
+
 void run_self_gather(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<SelfClothPush>();
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const ivec2 own{static_cast<int>(i) % push.grid.x, static_cast<int>(i) / push.grid.x};
-        const std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
+        std::uint32_t triangles = cell_inside(own, push.grid) ? state.topology.grid().cell(own.x, own.y) : 0u;
         const std::size_t place = place_on_sheet(push, i);
-        meeting->positions[place] = state[Field::position][i];
+        vec4& laid = meeting->positions[place];
+        laid = state[Field::position][i];
+        if (meeting->model->is_sewn()) {
+            const SelfSewn& sewn = meeting->model->sewn[place];
+            if (laid.w > 0.0f && sewn.inverse_mass > 0.0f) laid.w = sewn.inverse_mass;
+            triangles &= ~left_out(sewn, push, inputs);
+        }
         meeting->displacements[place] = texel(xyz(state[Field::displacement][i]), static_cast<float>(triangles));
         if (step.last) {
             vec4& before = where.before()[i];
