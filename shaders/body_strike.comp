@@ -1,5 +1,5 @@
 // This pass gives the bodies that have a mass the opposite of what they gave to a cloth's motion in the substep: of the
-// cloth's sums, less those of the substeps before.
+// cloth's sums, less those of the substeps before. To a light one it is owed.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/body_types.h"
@@ -12,6 +12,7 @@
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(BodyStrikePush)
+layout(constant_id = 16) const bool has_light = false;
 layout(set = 0, binding = 0, rgba32f) uniform image2D bodies;
 layout(set = 0, binding = 1, std430) readonly buffer Constants { BodyConstants body_constants[]; };
 layout(set = 0, binding = 2, r32ui) uniform readonly uimage2D impulses;
@@ -41,5 +42,17 @@ void main() {
     BodyConstants constants = body_constants[number];
     int row = impulse_first + constants.what.y;
     vec3 given = added_vector(number, row, 0), moment = added_vector(number, row, 3);
-    store_body(number, body_after_cloth(body_at(number), constants, given, moment, push.unit));
+    RigidBody body = body_at(number);
+    BodyStrike strike = strike_of(body, constants, given, moment, push.unit);
+    if (has_light) {
+        if (is_light(constants)) {
+            vec4 owed = imageLoad(bodies, ivec2(body_owed, number));
+            BodyStrike all =
+                strikes_sum(BodyStrike(owed.xyz, imageLoad(bodies, ivec2(body_owed_spin, number)).xyz), strike);
+            imageStore(bodies, ivec2(body_owed, number), vec4(all.impulse, is_strike(strike) ? 1.0f : owed.w));
+            imageStore(bodies, ivec2(body_owed_spin, number), vec4(all.moment, 0.0f));
+            return;
+        }
+    }
+    store_body(number, struck_body(body, constants.inverse.w, strike.impulse, strike.moment));
 }

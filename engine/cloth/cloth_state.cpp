@@ -27,6 +27,8 @@ bool sums_impulses(Context c) { return drape::sums_impulses(c.model.scene); }
 bool splits_pins(Context c) { return drape::splits_pins(c.model); }
 std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
 bool bears_bodies(Context c) { return has_bodies(c.model, index_of(c)); }
+bool meets_bodies(Context c) { return bears_bodies(c) && bodies_meet(c.model); }
+bool has_hulls(Context c) { return bears_bodies(c) && !c.model.bodies[c.cloth.member].hull_points.empty(); }
 bool strikes_bodies(Context c) { return body_count(c.model) > 0; }
 bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
@@ -70,7 +72,12 @@ FieldExtent target_list(Context c) { return {glsl::bend_parts * c.cloth.grid.col
 FieldExtent line_scratch(Context c) { return line_scratch_extent(c.cloth.grid); }
 FieldExtent control_texels(Context) { return {glsl::control_texel_count}; }
 FieldExtent impulse_table(Context c) { return {glsl::impulse_columns, impulse_row_count(c.model.scene)}; }
-FieldExtent body_list(Context c) { return {body_count(c.model)}; }
+FieldExtent body_list(Context c) { return {body_count(c.model) + obstacle_count(c.model)}; }
+FieldExtent pair_list(Context c) {
+    const std::size_t bodies = body_count(c.model);
+    return {glsl::pair_meetings * bodies * (bodies + obstacle_count(c.model))};
+}
+FieldExtent hull_list(Context c) { return {c.model.bodies[c.cloth.member].hull_points.size()}; }
 FieldExtent body_table(Context c) { return {glsl::body_texels, body_count(c.model)}; }
 FieldExtent torque_list(Context c) { return {glsl::torque_texels, torque_count(c.cloth.grid)}; }
 FieldExtent nested_list(Context c) { return {c.cloth.scheme.nested_table.size()}; }
@@ -148,6 +155,11 @@ std::vector<FieldRow> motion_rows() {
          [](Context c) {
              return FieldExtent{glsl::impulse_columns, body_count(c.model)};
          }},
+        {Field::body_meetings, "body meetings", buffer, layout_of<glsl::BodyMeeting>(), device, meets_bodies,
+         pair_list},
+        {Field::met_bodies, "met bodies", buffer, layout_of<glsl::MetBody>(), device, meets_bodies, body_list},
+        {Field::hull_points, "hull points", buffer, vector, constant, has_hulls, hull_list,
+         [](Context c) { return bytes_of_list(c.model.bodies[c.cloth.member].hull_points); }},
         {Field::pin_numbers, "pin numbers", image, integer, constant, splits_pins, particles,
          [](Context c) { return bytes_of_list(pin_numbers(c.model, index_of(c))); }},
         {Field::lifted_once, "lifted once", stored, vector, frame, cut_by_edges, particles},

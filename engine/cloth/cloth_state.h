@@ -45,6 +45,9 @@ enum class Field : std::uint8_t {
     bodies,                    ///< of a member's first cloth: its bodies (shared/body_types.h), of which
     body_constants,            ///< these are the constants; and by body, of the sums of impulses on a cloth,
     struck,                    ///< what the body got the opposite of in this frame so far
+    body_meetings,             ///< within a pass: where bodies may touch (shaders/body_meet.comp)
+    met_bodies,                ///< within it: where they are and how they move
+    hull_points,               ///< cloth/bodies.h
     pin_numbers,               ///< by particle, 1 and the number of the pin that holds it at the start, or 0
     lifted_once,               ///< displacement after the first round of boxes' edges, m; w above 0 where they touched
     lifted,                    ///< displacement after the second round of boxes' edges, m; w as before

@@ -323,9 +323,11 @@ void add_begin_of_impulses(const SimulationModel& model, std::vector<Step>& step
 /// Moves the bodies of every member, before anything of a substep.
 void add_motion_of_bodies(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
-        if (has_bodies(model, cloth))
-            steps.push_back(
-                {StepKind::body_move, cloth, substep, 0, body_move_push(model, model.cloths[cloth].member, substep)});
+        if (has_bodies(model, cloth)) {
+            const glsl::BodyMovePush push = body_move_push(model, model.cloths[cloth].member, substep);
+            if (bodies_meet(model)) steps.push_back({StepKind::body_meet, cloth, substep, 0, push});
+            steps.push_back({StepKind::body_move, cloth, substep, 0, push});
+        }
 }
 
 /// Gives them what the cloths gave, after all else of a substep.

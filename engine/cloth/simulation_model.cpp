@@ -194,6 +194,8 @@ float SimulationModel::iteration_limit() const {
 std::vector<SkippedWork> SimulationModel::skipped() const {
     std::vector<SkippedWork> all;
     if (!windy) all.push_back({"wind", "no wind in the scene"});
+    if (!bodies.front().bodies.empty() && !bodies.front().meet)
+        all.push_back({"contact of bodies", "one body, and no collider but planes, whose contact its motion has"});
     if (scene.colliders.empty()) {
         all.push_back({"collision", "no colliders in the scene"});
     } else {

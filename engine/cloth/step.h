@@ -52,6 +52,7 @@ enum class StepKind {
     decide,
     advance,
     clear_impulses,
+    body_meet,
     body_move,
     body_strike,
     momentum,
@@ -139,7 +140,9 @@ struct Step {
         return std::get<Push>(constants);
     }
     /// Returns whether the step is one of the bodies of its cloth's member. No step moves past it.
-    bool is_of_bodies() const { return kind == StepKind::body_move || kind == StepKind::body_strike; }
+    bool is_of_bodies() const {
+        return kind == StepKind::body_meet || kind == StepKind::body_move || kind == StepKind::body_strike;
+    }
 };
 
 }  // namespace drape

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "run/scene_oracles.h"
@@ -284,12 +285,34 @@ Verdict rebounds(const SceneRun& run, const Limits& limits) {
                         limits["most"])};
 }
 
+/// In no frame is a ball with a mass deeper in another collider than `depth`.
+Verdict bodies_apart(const SceneRun& run, const Limits& limits) {
+    double deepest = -std::numeric_limits<double>::infinity();
+    std::string told = "there is no such ball";
+    for (std::size_t frame = 0; frame < run.bodies.size(); ++frame) {
+        const std::vector<Collider> colliders = placed(run.scene.colliders, run.bodies[frame]);
+        for (const BodyState& body : run.bodies[frame]) {
+            const Sphere* const ball = std::get_if<Sphere>(&run.scene.colliders[body.collider].shape);
+            for (std::size_t other = 0; ball && other < colliders.size(); ++other) {
+                if (other == body.collider) continue;
+                const double depth =
+                    ball->radius - exact::surface_distance(colliders[other], run.time(frame), body.position);
+                if (depth <= deepest) continue;
+                deepest = depth;
+                told = fmt::format("in frame {} a ball is {:.2g} m inside collider {}", frame, depth, other);
+            }
+        }
+    }
+    return {std::isfinite(deepest) && deepest <= limits["depth"], fmt::format("{}, allowed {}", told, limits["depth"])};
+}
+
 }  // namespace
 
 std::span<const SceneCheck> motion_checks() {
-    static constexpr SceneCheck checks[] = {{"falls", falls},           {"swing", swing},      {"torque", torque},
-                                            {"blown", blown},           {"mirror", mirror},    {"carried", carried},
-                                            {"body_flies", body_flies}, {"rebounds", rebounds}};
+    static constexpr SceneCheck checks[] = {
+        {"falls", falls},           {"swing", swing},       {"torque", torque},
+        {"blown", blown},           {"mirror", mirror},     {"carried", carried},
+        {"body_flies", body_flies}, {"rebounds", rebounds}, {"bodies_apart", bodies_apart}};
     return checks;
 }
 

@@ -33,11 +33,12 @@ std::vector<Key<Collider>> body_keys_of(const std::vector<Key<Shape>>& own) {
     std::vector<Key<Collider>> keys = keys_of<Shape>(own);
     const Key<Collider> of_bodies[] = {
         {"mass", &Collider::mass, optional(number(positive)),
-         "kg: gravity, cloth and planes move the collider, which has no path then. The solver's method must be named. "
-         "At least twice what the cloth weighs that its surface could touch."},
+         "kg: gravity, cloth and other colliders move the collider, which has no path then. At least a tenth of what "
+         "the heaviest cloth weighs that covers it. Not of a mesh that is a shell or deforms, nor of an ellipsoid "
+         "beside a box, a mesh or another ellipsoid."},
         {"inertia", &Collider::inertia, optional(three_numbers(positive)),
          "kg m^2: its principal moments of inertia, about its centre of mass along its own axes (a capsule's y is its "
-         "length). Absent: those of one density."},
+         "length, a mesh's are its file's). Absent: those of one density."},
         {"velocity", &Collider::velocity, vec3, "m/s, of a body at the start."},
         {"angular_velocity", &Collider::angular_velocity, vec3,
          "rad/s about the world's axes, of a body at the start."},
@@ -104,7 +105,7 @@ inline const Object<Collider> mesh{
     "MiB: the solid body that its surface bounds, parts that overlap being one, or a shell. At most one of shell "
     "and solid. Contact knows its distance at the points of a lattice and interpolates between them. Its centre is "
     "the middle of its bounding box.",
-    keys_of<Mesh>({
+    body_keys_of<Mesh>({
         {"file", &Mesh::file, text(), "A relative name is looked for as a cloth's start is.", "the name of a file"},
         {"scale", &Mesh::scale, number(positive), "Metres per unit of the file."},
         {"position", &Mesh::position, vec3, "Metres: where the file's origin is."},
@@ -132,7 +133,7 @@ inline const Object<Collider> mesh{
          "Seconds: when the first pose is. It holds before, and the last one behind."},
         {"loop", &Mesh::loop, boolean(), "The first pose follows the last one, before the start too."},
     }),
-    check_mesh, R"("not": {"required": ["shell", "solid"]})"};
+    check_mesh, R"("allOf": [{"not": {"required": ["shell", "solid"]}}, {"not": {"required": ["mass", "path"]}}])"};
 
 using Colliders = std::vector<Collider>;
 

@@ -6,6 +6,7 @@
 #include "mesh/distance_field.h"
 #include "mesh/mesh_shape.h"
 #include "scene/scene_rules.h"
+#include "world/body_faults.h"
 #include "world/field_plan.h"
 #include "world/mass_properties.h"
 #include "world/triangle_crossings.h"
@@ -63,22 +64,17 @@ SceneNode mass_of(const SceneNode& colliders, const SceneDescription& scene, std
 }  // namespace
 
 bool check_bodies(const Members& members, const SceneDescription& scene) {
-    double heaviest = 0;
-    for (const Cloth& cloth : scene.cloths) {
-        const std::vector<float>& factors = cloth.cell_density;
-        const double most = factors.empty() ? 1 : double{std::ranges::max(factors)};
-        heaviest = std::max(heaviest, most * cloth.areal_density);
-    }
+    if (const std::optional<BodyFault> fault = body_fault(scene))
+        return mass_of(members["colliders"], scene, fault->collider).fail("expected " + fault->expected);
     for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
         const Collider& body = scene.colliders[k];
         if (!body.mass) continue;
         const SceneNode mass = mass_of(members["colliders"], scene, k);
-        const double least = least_mass_ratio * heaviest * surface_area(body.shape);
+        const double least = least_mass_ratio * covering_mass(scene, body.shape);
         if (*body.mass < least)
-            return mass.fail(
-                fmt::format("expected at least {:.3g} kg, {} times what cloth of {:.3g} kg/m^2 weighs "
-                            "that covers the body, got {:.3g}",
-                            least, least_mass_ratio, heaviest, *body.mass));
+            return mass.fail(fmt::format(
+                "expected at least {:.3g} kg, {} times what the heaviest cloth weighs that covers the body, got {:.3g}",
+                least, least_mass_ratio, *body.mass));
     }
     return true;
 }
@@ -106,7 +102,7 @@ bool check_mesh(const Members& members, Collider& collider) {
     if (const std::string mended = mesh.shape->mending().text(); !mended.empty())
         members["file"].warn(fmt::format("the mesh was mended to be a body: {}", mended));
     warn_of_crossings(members["file"], *mesh.shape);
-    return true;
+    return check_body(members, collider);
 }
 
 bool check_fields(const SceneNode& colliders, const SceneDescription& scene) {

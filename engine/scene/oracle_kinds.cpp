@@ -57,6 +57,11 @@ std::string_view no_body(const SceneDescription& scene) {
     return std::ranges::any_of(scene.colliders, has_mass) ? "" : "no collider has a mass";
 }
 
+std::string_view no_ball(const SceneDescription& scene) {
+    const auto is_ball = [](const Collider& each) { return each.mass && std::holds_alternative<Sphere>(each.shape); };
+    return std::ranges::any_of(scene.colliders, is_ball) ? "" : "no sphere has a mass";
+}
+
 std::string_view no_flying_body(const SceneDescription& scene) {
     return gravity_changes(scene) ? no_steady_gravity(scene) : no_body(scene);
 }
@@ -151,6 +156,10 @@ std::vector<OracleKind> kinds_of_motion() {
           {"least", "smallest height to which it then rises from its lowest point, in units of what it had fallen"},
           {"most", "largest"}},
          no_body},
+        {"bodies_apart",
+         "Balls with a mass are inside no collider and no other body.",
+         {{"depth", "largest depth, metres"}},
+         no_ball},
         {"swing",
          "What gravity gives and damping leaves is there as motion at the fastest moment; without wind and contact.",
          {which_cloth,

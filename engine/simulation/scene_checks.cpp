@@ -7,6 +7,7 @@
 #include <set>
 
 #include "drape/scene_reader.h"
+#include "world/body_faults.h"
 #include "world/cloth_keys.h"
 #include "world/mass_properties.h"
 #include "world/overlap.h"
@@ -249,7 +250,9 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         if (const Collider& body = scene.colliders[i]; body.mass)
             expect(is_body(body), fmt::format("/colliders/{}/mass", i),
-                   "a mass above 0 of a sphere, box, ellipsoid or capsule without a path");
+                   "a mass above 0 of a collider that is no plane and has no path");
+    if (const std::optional<BodyFault> fault = body_fault(scene))
+        expect(false, fmt::format("/colliders/{}/mass", fault->collider), fault->expected.c_str());
     if (result.errors.empty() && scene.overlap == Overlap::refuse)
         for (const StartOverlap& overlap : start_overlaps(scene))
             expect(false, fmt::format("/cloths/{}", overlap.cloth),

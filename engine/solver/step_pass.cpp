@@ -106,6 +106,9 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     if (bearer) {
         resources.own.emplace_back("bodies", &(*bearer)[Field::bodies]);
         resources.own.emplace_back("body_constants", &(*bearer)[Field::body_constants]);
+        resources.own.emplace_back("body_meetings", &(*bearer)[Field::body_meetings]);
+        resources.own.emplace_back("met_bodies", &(*bearer)[Field::met_bodies]);
+        resources.own.emplace_back("hull_points", &(*bearer)[Field::hull_points]);
         resources.own.emplace_back("colliders", &inputs.colliders);
         resources.own.emplace_back("body_actions", &inputs.body_actions);
     }

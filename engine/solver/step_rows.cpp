@@ -212,6 +212,7 @@ std::vector<StepRow> other_rows() {
         {StepKind::decide, "iteration decision", {{plain, "iteration_decision.comp", one_invocation}}, decide_push},
         {StepKind::advance, "advance", {{plain, "advance.comp", over_strips}}, grid_push, turns_home, before_alias},
         {StepKind::clear_impulses, "impulses", {{plain, "clear_impulses.comp", one_workgroup}}},
+        {StepKind::body_meet, "contact of bodies", {{plain, "body_meet.comp", one_workgroup_of_bodies}}},
         {StepKind::body_move, "motion of bodies", {{plain, "body_move.comp", over_bodies}}},
         {StepKind::body_strike, "strikes on bodies", {{plain, "body_strike.comp", over_bodies}}},
         {StepKind::momentum, "momentum", {{plain, "momentum.comp", over_strips}}},

@@ -95,6 +95,8 @@ DispatchSize over_bodies(const StepPlace& place, const ComputePipeline&) {
     return {static_cast<std::uint32_t>(body_count(place.model))};
 }
 
+DispatchSize one_workgroup_of_bodies(const StepPlace&, const ComputePipeline&) { return {glsl::workgroup_width}; }
+
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&) {
     return of_cloths(place, whole(grid_of(place).x), whole(grid_of(place).y));
 }

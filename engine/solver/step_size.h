@@ -15,6 +15,7 @@ using vulkan::ComputePipeline;
 DispatchSize one_invocation(const StepPlace& place, const ComputePipeline&);
 DispatchSize one_workgroup(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_bodies(const StepPlace& place, const ComputePipeline&);
+DispatchSize one_workgroup_of_bodies(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_particles(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_strips(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_columns(const StepPlace& place, const ComputePipeline&);       ///< strip_rows(step_rounds) each

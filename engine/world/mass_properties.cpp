@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <stdexcept>
 
 #include "base/vectors.h"
 #include "mesh/mesh_shape.h"
@@ -133,9 +135,70 @@ double area(const Capsule& capsule) {
     const double most = std::max(lower, upper);
     return 4 * std::numbers::pi * most * (most + half);
 }
-double area(const Mesh&) { return 0; }
+double area(const Mesh& mesh) {
+    double sum = 0;
+    if (mesh.shape)
+        for (const auto& [i, j, k] : mesh.shape->triangles()) {
+            const std::vector<Vec3>& at = mesh.shape->vertices();
+            sum += 0.5 * length(cross(minus(at[j], at[i]), minus(at[k], at[i])));
+        }
+    return sum;
+}
+
+/// Turns a symmetric tensor and its axes so that its element (p, q) becomes zero.
+void rotate_away(std::array<double, 9>& tensor, std::array<double, 9>& axes, std::size_t p, std::size_t q) {
+    const double off = tensor[3 * p + q];
+    if (off == 0) return;
+    const double ratio = (tensor[4 * q] - tensor[4 * p]) / (2 * off);
+    const double tangent = (ratio < 0 ? -1 : 1) / (std::abs(ratio) + std::hypot(ratio, 1));
+    const double cosine = 1 / std::hypot(tangent, 1), sine = tangent * cosine;
+    const auto turn = [&](double& a, double& b) {
+        const double first = a;
+        a = cosine * first - sine * b;
+        b = sine * first + cosine * b;
+    };
+    for (std::size_t k = 0; k < 3; ++k) turn(tensor[3 * k + p], tensor[3 * k + q]);
+    for (std::size_t k = 0; k < 3; ++k) turn(tensor[3 * p + k], tensor[3 * q + k]);
+    for (std::size_t k = 0; k < 3; ++k) turn(axes[3 * k + p], axes[3 * k + q]);
+    tensor[3 * p + q] = tensor[3 * q + p] = 0;
+}
 
 }  // namespace
+
+PrincipalAxes principal_axes(const std::array<double, 9>& tensor) {
+    std::array<double, 9> rest = tensor;
+    PrincipalAxes found;
+    // What rounding left of zero is none of a direction.
+    const double least = 1e-14 * (tensor[0] + tensor[4] + tensor[8]);
+    for (int sweep = 0; sweep < 16; ++sweep)
+        for (const auto& [p, q] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
+            if (std::abs(rest[static_cast<std::size_t>(3 * p + q)]) > least)
+                rotate_away(rest, found.axes, static_cast<std::size_t>(p), static_cast<std::size_t>(q));
+    found.moments = {rest[0], rest[4], rest[8]};
+    return found;
+}
+
+std::vector<Vec3> hull_points(const MeshShape& shape) {
+    constexpr std::size_t most = 512;
+    for (std::size_t directions : {std::size_t{2048}, most}) {
+        std::set<std::size_t> farthest;
+        for (std::size_t k = 0; k < directions; ++k) {
+            // A spiral from pole to pole, by the golden angle (Swinbank and Purser 2006).
+            const double y = 1 - (2 * static_cast<double>(k) + 1) / static_cast<double>(directions);
+            const double around = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
+            const double radius = std::sqrt(1 - y * y);
+            const Vec3 along{radius * std::cos(around), y, radius * std::sin(around)};
+            const auto last =
+                std::ranges::max_element(shape.vertices(), {}, [&](const Vec3& v) { return dot(v, along); });
+            farthest.insert(static_cast<std::size_t>(last - shape.vertices().begin()));
+        }
+        if (farthest.size() > most) continue;
+        std::vector<Vec3> points;
+        for (const std::size_t vertex : farthest) points.push_back(shape.vertices()[vertex]);
+        return points;
+    }
+    throw std::logic_error("more hull points than directions");
+}
 
 double surface_area(const ColliderShape& shape) {
     return std::visit([](const auto& each) { return area(each); }, shape);
@@ -143,6 +206,21 @@ double surface_area(const ColliderShape& shape) {
 
 std::optional<MassProperties> mass_properties(const ColliderShape& shape) {
     return std::visit([](const auto& each) { return properties(each); }, shape);
+}
+
+double covering_mass(const SceneDescription& scene, const ColliderShape& shape) {
+    double heaviest = 0;
+    for (const Cloth& cloth : scene.cloths) {
+        const std::vector<float>& factors = cloth.cell_density;
+        const double most = factors.empty() ? 1 : double{std::ranges::max(factors)};
+        heaviest = std::max(heaviest, most * cloth.areal_density);
+    }
+    return heaviest * surface_area(shape);
+}
+
+double light_cover(const SceneDescription& scene, const Collider& body) {
+    const double covering = covering_mass(scene, body.shape);
+    return *body.mass < light_mass_ratio * covering ? covering : 0;
 }
 
 }  // namespace drape

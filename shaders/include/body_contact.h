@@ -71,12 +71,18 @@ SHARED vec3 touch_velocity(RigidBody body, vec3 inverse_inertia, BodyTouch touch
     return velocity;
 }
 
-/// Returns the mass with which a body's point resists along a direction, kg.
-SHARED float touch_mass(RigidBody body, BodyConstants constants, vec3 arm, vec3 direction) {
+/// Returns the velocity that an impulse of 1 N s along a direction gives to a body's point along it, 1/kg.
+SHARED float touch_yield(RigidBody body, BodyConstants constants, vec3 arm, vec3 direction) {
     vec3 inverse_inertia = vec3(constants.inverse.x, constants.inverse.y, constants.inverse.z);
     vec3 moment = ordered_cross(arm, direction);
     vec3 turning = ordered_cross(angular_velocity(body.turn, moment, inverse_inertia), arm);
-    precise float mass = 1.0f / (constants.inverse.w + ordered_dot(turning, direction));
+    precise float yielding = constants.inverse.w + ordered_dot(turning, direction);
+    return yielding;
+}
+
+/// Returns the mass with which a body's point resists along a direction, kg.
+SHARED float touch_mass(RigidBody body, BodyConstants constants, vec3 arm, vec3 direction) {
+    precise float mass = 1.0f / touch_yield(body, constants, arm, direction);
     return mass;
 }
 
@@ -130,17 +136,24 @@ SHARED float touches_planes(RigidBody before, RigidBody after) {
     return same ? 0.0f : 1.0f;
 }
 
+/// Returns a direction of a body's shape in its own frame.
+SHARED vec3 shape_axis(BodyConstants constants, vec3 axis) {
+    if (constants.what.x != kind_mesh) return axis;
+    return turned_by_quaternion(constants.axes, axis);
+}
+
 /// Returns a body's pose in its shape's frame, with the change from the pose `before`, in a record of the shape.
 SHARED ColliderRecord placed_record(ColliderRecord record, BodyConstants constants, RigidBody before, RigidBody now) {
     vec3 center = vec3(constants.center.x, constants.center.y, constants.center.z);
     precise vec3 last = before.position - turned_by_quaternion(before.turn, center);
     precise vec3 middle = now.position - turned_by_quaternion(now.turn, center);
-    vec3 x = turned_by_quaternion(now.turn, vec3(1.0f, 0.0f, 0.0f));
-    vec3 y = turned_by_quaternion(now.turn, vec3(0.0f, 1.0f, 0.0f));
-    vec3 z = turned_by_quaternion(now.turn, vec3(0.0f, 0.0f, 1.0f));
-    precise vec3 change_x = x - turned_by_quaternion(before.turn, vec3(1.0f, 0.0f, 0.0f));
-    precise vec3 change_y = y - turned_by_quaternion(before.turn, vec3(0.0f, 1.0f, 0.0f));
-    precise vec3 change_z = z - turned_by_quaternion(before.turn, vec3(0.0f, 0.0f, 1.0f));
+    vec3 own_x = shape_axis(constants, vec3(1.0f, 0.0f, 0.0f)), own_y = shape_axis(constants, vec3(0.0f, 1.0f, 0.0f));
+    vec3 own_z = shape_axis(constants, vec3(0.0f, 0.0f, 1.0f));
+    vec3 x = turned_by_quaternion(now.turn, own_x), y = turned_by_quaternion(now.turn, own_y);
+    vec3 z = turned_by_quaternion(now.turn, own_z);
+    precise vec3 change_x = x - turned_by_quaternion(before.turn, own_x);
+    precise vec3 change_y = y - turned_by_quaternion(before.turn, own_y);
+    precise vec3 change_z = z - turned_by_quaternion(before.turn, own_z);
     precise vec3 moved = middle - last;
     ColliderRecord placed = record;
     placed.pose_x = vec4(x.x, y.x, z.x, middle.x);

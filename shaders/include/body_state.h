@@ -7,11 +7,16 @@ RigidBody body_at(int number) {
         imageLoad(bodies, ivec2(body_slower, number)).xyz, imageLoad(bodies, ivec2(body_spin, number)).xyz);
 }
 
-void store_body(int number, RigidBody body) {
-    imageStore(bodies, ivec2(body_position, number), vec4(body.position, 0.0f));
+/// Stores all but position and turn.
+void store_motion(int number, RigidBody body) {
     imageStore(bodies, ivec2(body_remainder, number), vec4(body.remainder, 0.0f));
-    imageStore(bodies, ivec2(body_turn, number), body.turn);
     imageStore(bodies, ivec2(body_velocity, number), vec4(body.velocity, 0.0f));
     imageStore(bodies, ivec2(body_slower, number), vec4(body.slower, 0.0f));
     imageStore(bodies, ivec2(body_spin, number), vec4(body.spin, 0.0f));
+}
+
+void store_body(int number, RigidBody body) {
+    imageStore(bodies, ivec2(body_position, number), vec4(body.position, 0.0f));
+    imageStore(bodies, ivec2(body_turn, number), body.turn);
+    store_motion(number, body);
 }

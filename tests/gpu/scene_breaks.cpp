@@ -63,6 +63,13 @@ void bodies_feel_no_cloth(SceneDescription& scene) {
         if (collider.mass) collider.mass = 1e6 * *collider.mass;
 }
 
+void bodies_pass_through_each_other(SimulationModel& model) {
+    for (MemberBodies& each : model.bodies) {
+        each.meet = false;
+        each.obstacles.clear();
+    }
+}
+
 void pins_let_go(SimulationModel& model) {
     for (ClothModel& cloth : model.cloths)
         for (std::size_t particle = 0; particle < cloth.position.size(); ++particle)
@@ -83,6 +90,11 @@ const std::vector<SceneBreak> breaks{
     {"", "pins_hold", "pins let go", 2, nullptr, pins_let_go},
     {"", "mass_kept", "border weighs as inside", 2, nullptr, border_weighs_as_inside},
     {"", "cut_pieces", "never cut", to_the_end, never_cut},
+    {"balls_in_net", "pins_follow", "key-framed pins stay", 20, pins_stay},
+    {"balls_in_net", "penetration", "no collision", 50, no_collision},
+    {"balls_in_net", "stretch", "springs a thousand times too soft", 60, springs_a_thousand_times_too_soft},
+    {"balls_in_net", "body_flies", "gravity 1 % too strong", 20, gravity_one_percent_off},
+    {"balls_in_net", "bodies_apart", "bodies pass through each other", 60, nullptr, bodies_pass_through_each_other},
     {"capsules", "falls", "gravity 1 % too strong", 5, gravity_one_percent_off},
     {"capsules", "penetration", "capsules forgotten", 18, forgotten<Capsule>},
     {"capsules", "stretch", "springs a thousand times too soft", 20, springs_a_thousand_times_too_soft},

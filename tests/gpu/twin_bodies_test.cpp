@@ -1,7 +1,10 @@
 // Bodies that cloth moves, on the device, equal the twin's bit for bit (lavapipe).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "twin_comparison.h"
+#include "world/mass_properties.h"
 
 namespace drape {
 namespace {
@@ -49,6 +52,24 @@ TEST_P(TwinBodiesTest, ClothsTogether) {
     scene.cloths.push_back(scene.cloths[0]);
     scene.cloths[1].name = "other";
     scene.cloths[1].placement.origin[1] += 0.1;
+    compare(scene);
+}
+
+/// Bodies of every kind fall onto each other, obstacles and the cloth, one of them light.
+TEST_P(TwinBodiesTest, AHeapMeets) {
+    SceneDescription scene = with_bodies(GetParam());
+    for (Collider& each : scene.colliders) {
+        if (each.path.moves() || special(each.shape).plane) continue;
+        each.mass = 0.5;
+        each.velocity = {0, -1, 0.2};
+        each.angular_velocity = {1, -2, 0.5};
+    }
+    Collider box{Box{{0.05, 0.3, 0}, {0.08, 0.06, 0.1}}}, other{Box{{0.06, 0.44, 0.02}, {0.05, 0.07, 0.06}}};
+    Collider rod{Capsule{{-0.2, 0.6, 0}, {0.2, 0.62, 0.1}, {0.05, 0.04}}}, light{Sphere{{0, 0.8, 0.05}, 0.08}};
+    for (Collider* const each : {&box, &other, &rod}) each->mass = 0.4;
+    light.mass = 0.2 * covering_mass(scene, light.shape);
+    scene.colliders.insert(scene.colliders.end(), {box, other, rod, light});
+    std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
     compare(scene);
 }
 

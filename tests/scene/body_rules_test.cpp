@@ -23,10 +23,36 @@ TEST(BodyRules, ABodyHasNoPathAndWhatItHasNeedsAMass) {
          "s:3:35: /colliders/boxes/0/inertia: expected moments none of which exceeds the sum of the others"});
 }
 
-TEST(BodyRules, ABodyWeighsMoreThanTheClothOnIt) {
-    expect_errors(R"("colliders": {"spheres": [{"radius": 0.5, "mass": 0.1}]}, "solver": {"method": "line"})",
-                  {"s:2:51: /colliders/spheres/0/mass: expected at least 1.26 kg, 2 times what cloth of 0.2 kg/m^2 "
-                   "weighs that covers the body, got 0.1"});
+TEST(BodyRules, AnEllipsoidMeetsNoBox) {
+    expect_errors(
+        R"("colliders": {"ellipsoids": [{"mass": 60}],
+"boxes": [{}]})",
+        {"s:2:39: /colliders/ellipsoids/0/mass: expected no ellipsoid beside a box, which have no contact with "
+         "each other where one has a mass: ellipsoids meet planes, spheres and capsules"});
+}
+
+TEST(BodyRules, AShellAndAMeshThatDeformsHaveNoMass) {
+    const std::string box = "\"file\": \"" DRAPE_SOURCE_DIR "/tests/scene/box";
+    for (const char* const rest :
+         {".obj\", \"shell\": 0.05",
+          ".obj\", \"frames\": \"" DRAPE_SOURCE_DIR "/tests/scene/box_pose_#.obj\", \"frames_per_second\": 10"})
+        expect_errors("\"colliders\": {\"meshes\": [{" + box + rest + R"(,
+"mass": 60}]})",
+                      {"s:3:9: /colliders/meshes/0/mass: expected no mass of a mesh that is a shell or deforms"});
+}
+
+TEST(BodyRules, PairsAreAtMost4096) {
+    std::string spheres = R"({"radius": 0.01, "mass": 50})";
+    for (int k = 1; k < 65; ++k) spheres += ",\n{\"radius\": 0.01, \"mass\": 50}";
+    expect_errors("\"colliders\": {\"spheres\": [\n" + spheres + "]}",
+                  {"s:66:26: /colliders/spheres/63/mass: expected at most 4096 pairs of a body and a collider, a body "
+                   "counting once with each"});
+}
+
+TEST(BodyRules, ABodyWeighsATenthOfTheClothOnIt) {
+    expect_errors(R"("colliders": {"spheres": [{"radius": 0.5, "mass": 0.01}]}, "solver": {"method": "line"})",
+                  {"s:2:51: /colliders/spheres/0/mass: expected at least 0.0628 kg, 0.1 times what the heaviest cloth "
+                   "weighs that covers the body, got 0.01"});
 }
 
 }  // namespace

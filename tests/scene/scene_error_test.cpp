@@ -214,7 +214,7 @@ const Malformed setting_cases[] = {
      scene("\"oracles\": [{}, {\"check\": \"nonsense\", \"speed\": 1}, {\"check\": \"strech\"}, {\"check\": 3}]"),
      {"2:13: /oracles/0/check: expected the name of a check, got nothing",
       "2:27: /oracles/1/check: expected the name of a check, one of stretch, penetration, uncrossed, supported, "
-      "borne, pins_hold, pins_follow, released, drawn, falls, body_flies, rebounds, swing, torque, "
+      "borne, pins_hold, pins_follow, released, drawn, falls, body_flies, rebounds, bodies_apart, swing, torque, "
       "blown, mirror, carried, cut_pieces, mass_kept, stretch_law, got \"nonsense\"",
       "2:62: /oracles/2/check: expected the name of a check, perhaps \"stretch\", got \"strech\"",
       "2:83: /oracles/3/check: expected the name of a check, got 3"}},

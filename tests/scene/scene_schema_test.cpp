@@ -305,7 +305,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"box", {"path", "mass", "inertia"}},
         {"ellipsoid", {"path", "mass", "inertia"}},
         {"capsule", {"radii", "path", "mass", "inertia"}},
-        {"mesh", {"file", "shell", "spacing", "frames", "path"}},
+        {"mesh", {"file", "shell", "spacing", "frames", "path", "mass", "inertia"}},
         {"seam", {"a", "b"}},
         {"seam_side", {"cloth", "edge", "from", "to"}},
         {"actions", {"controls", "hands", "steps"}},

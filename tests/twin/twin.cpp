@@ -314,6 +314,7 @@ StepFunction function_of(StepKind kind) {
 }  // namespace
 
 void Twin::run_step(const Step& step, FrameInputs& inputs) {
+    if (step.kind == StepKind::body_meet) return meet_bodies(step, inputs);
     if (step.kind == StepKind::body_move) return move_bodies(step, inputs);
     if (step.kind == StepKind::body_strike) return strike_bodies(step);
     if (step.cloth == between_cloths) return run_contact(step);

@@ -175,6 +175,7 @@ class Twin {
   private:
     /// Takes a step of contact, of all cloths at once.
     void run_contact(const Step& step);
+    void meet_bodies(const Step& step, const FrameInputs& inputs);
     void move_bodies(const Step& step, FrameInputs& inputs);
     void strike_bodies(const Step& step);
     /// Returns the cloth with which the state of the bodies of a cloth's member lies.
