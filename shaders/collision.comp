@@ -3,7 +3,8 @@
 // `second_order` the cloth continues in backward Euler substeps (include/bdf2.h). With `after_edges`, the pass starts
 // from what collider_edges.comp left. Where `supporting`, it stores the surfaces on which particles lie, for contact
 // between cloths. With `after_impulses` it does that too, starts from the displacements that contact between cloths
-// left on their sheet, and writes the result there as well. Where it `books`, it sums what each collider gives.
+// left on their sheet, and writes the result there as well. Where it `books`, it sums what each collider gives, and where
+// it `keeps_contact`, what all of them give to each particle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -44,6 +45,8 @@ layout(set = 0, binding = 14, std430) writeonly buffer LedWays { vec4 led_ways[]
 TRIPLE_OUT(10, position_out);  // not with `after_impulses`
 #define IMPULSES_SLOT 17  // the skin has 16
 #include "include/book_impulses.h"
+layout(constant_id = 33) const bool keeps_contact = false;
+layout(set = 0, binding = 19, rgba32f) uniform image2D contact_impulses;
 
 vec2 skin_at(ivec2 texel) { return skin_of(placed(texel).y * push.grid.x + texel.x, push.contact.xy); }
 
@@ -173,8 +176,11 @@ bool take_as(int k, int number, vec3 given) {
     return here;
 }
 
+vec3 given_by_all;  // what all colliders give to the motion of a particle, m
+
 // A loop that is unrolled would lose that its sums are not to be contracted.
 void take(int number, vec3 given) {
+    if (keeps_contact) given_by_all = moved_position(given_by_all, given);
     if (take_as(0, number, given)) return;
     if (giver_count > 1)
         if (take_as(1, number, given)) return;
@@ -182,6 +188,7 @@ void take(int number, vec3 given) {
 }
 
 void take_from_nobody() {
+    given_by_all = vec3(0.0f);
     [[unroll]] for (int k = 0; k < most_givers; ++k) {
         givers[k].number = -1;
         givers[k].motion = vec3(0.0f);
@@ -213,8 +220,12 @@ void add_motion_of(int k, vec4 start, vec3 displacement, float mass) {
     givers[k].moment = with_impulse(givers[k].moment, impulse_of_motion(moment, mass), units);
 }
 
-void add_given(vec4 start, vec3 displacement) {
+void add_given(ivec2 texel, vec4 start, vec3 displacement) {
     float mass = reciprocal(start.w);
+    if (keeps_contact) {
+        vec3 sum = moved_position(LOAD(contact_impulses, texel).xyz, impulse_of_motion(given_by_all, mass));
+        imageStore(contact_impulses, placed(texel), vec4(sum, 0.0f));
+    }
     add_motion_of(0, start, displacement, mass);
     if (giver_count > 1) add_motion_of(1, start, displacement, mass);
     if (giver_count > 2) add_motion_of(2, start, displacement, mass);
@@ -261,7 +272,7 @@ bool meet_all(ivec2 texel, bool follows) {
     } while (round < round_count);
     if (went_far && !follows) return false;
     if (!touched) return true;
-    if (books) add_given(start, displacement);
+    if (books) add_given(texel, start, displacement);
     vec3 made = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f
                     ? led_out(texel, start, displacement, way_out)
                     : displacement;

@@ -1,7 +1,8 @@
 // This pass adds a cloth's momentum to the sums of a frame's impulses, or takes it from them, and where the masses of
 // free particles are. Particles that are held have the momentum of their pins' motion. Where it `splits` what holds the
 // cloth among its pins, it adds what holds the springs of theirs, as if that acted for half of the frame. Where
-// `masked`, masses and spring shares come from images (holes, maps, cuts).
+// `masked`, masses and spring shares come from images (holes, maps, cuts). Where the frame `keeps_contact`, it begins what
+// colliders give to each particle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/impulse_types.h"
@@ -32,6 +33,8 @@ layout(set = 0, binding = 8, r32f) uniform readonly image2D tension_column;
 layout(set = 0, binding = 9, r32f) uniform readonly image2D tension_shear_down_right;
 layout(set = 0, binding = 10, r32f) uniform readonly image2D tension_shear_down_left;
 layout(constant_id = 18) const int first_pin_row = 0;
+layout(constant_id = 33) const bool keeps_contact = false;
+layout(set = 0, binding = 11, rgba32f) uniform image2D contact_impulses;
 #include "include/rest_length.h"
 
 float units;
@@ -83,6 +86,8 @@ void add(ivec2 texel) {
     moment = with_impulse(moment, moment_of_mass(place.xyz, place.w == 0.0f ? 0.0f : mass), signed_travel);
     if (splits)
         if (place.w == 0.0f) hold(texel);
+    if (keeps_contact)
+        if (push.sign < 0.0f) imageStore(contact_impulses, placed(texel), vec4(0.0f));
 }
 
 void main() {

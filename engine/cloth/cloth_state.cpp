@@ -26,6 +26,7 @@ bool always(Context) { return true; }
 bool sums_impulses(Context c) { return drape::sums_impulses(c.model.scene); }
 bool splits_pins(Context c) { return drape::splits_pins(c.model); }
 std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
+bool keeps_contact(Context c) { return c.model.scene.force_fields && !c.model.scene.colliders.empty(); }
 bool bears_bodies(Context c) { return has_bodies(c.model, index_of(c)); }
 bool meets_bodies(Context c) { return bears_bodies(c) && bodies_meet(c.model); }
 bool has_hulls(Context c) { return bears_bodies(c) && !c.model.bodies[c.cloth.member].hull_points.empty(); }
@@ -58,7 +59,8 @@ bool pinned(Context c) { return !c.cloth.pinned.empty(); }
 template <std::size_t direction>
 bool tense(Context c) {
     const bool stretch_error =
-        direction < stretch_direction_count && (judged(c) || c.model.adaptive() || (splits_pins(c) && !gathers(c)));
+        direction < stretch_direction_count &&
+        (judged(c) || c.model.adaptive() || ((splits_pins(c) || c.model.scene.force_fields) && !gathers(c)));
     return c.cloth.scheme.carries_tension[direction] || stretch_error;
 }
 bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
@@ -147,6 +149,7 @@ std::vector<FieldRow> motion_rows() {
         {Field::loads, "loads", image, vector, constant, loaded, load_list,
          [](Context c) { return bytes_of_list(c.cloth.loads); }},
         {Field::impulses, "impulses", image, integer, state, sums_impulses, impulse_table},
+        {Field::contact_impulses, "contact impulses", image, vector, state, keeps_contact, particles},
         {Field::bodies, "bodies", image, vector, state, bears_bodies, body_table,
          [](Context c) { return bytes_of_list(bodies_at_start(c.model, c.cloth.member)); }},
         {Field::body_constants, "body constants", buffer, layout_of<glsl::BodyConstants>(), constant, bears_bodies,

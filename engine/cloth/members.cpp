@@ -153,7 +153,10 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
         return std::string(scene.wind.blows() ? "blowing" : "none");
     };
     const auto forces = [](const SceneDescription& scene) {
-        return std::string(scene.worst_forces ? "worst" : scene.forces ? "true" : "false");
+        return std::string(scene.force_fields   ? "fields"
+                           : scene.worst_forces ? "worst"
+                           : scene.forces       ? "true"
+                                                : "false");
     };
     const auto weight = [](const SceneDescription& scene) {
         return std::string(gravity_changes(scene) ? "changing" : "steady");

@@ -139,7 +139,10 @@ std::optional<Work> AutoPilot::next_work() {
             kept_.statistics = {still.statistics};
             ++simulated_;
             attempt_.phase = Phase::done;
-            return Work{.frame = kept_.first, .hands_out = true, .known = std::move(still)};
+            return Work{.frame = kept_.first,
+                        .history_substeps = history_in(histories_, StateSet::run),
+                        .hands_out = true,
+                        .known = std::move(still)};
         }
         case Phase::coarse:
             return attempted(control_.segment().substeps / 2, StateStep::remember);

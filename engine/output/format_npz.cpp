@@ -18,7 +18,10 @@ struct ParticleArray {
     NpyValues values = {};
 };
 constexpr ParticleArray positions{"positions"}, velocities{"velocities"}, contacts{"contacts", {"<i2", 2, 1}};
-constexpr std::array<const ParticleArray*, 3> particle_arrays{&positions, &velocities, &contacts};
+constexpr ParticleArray tensions{tension_name, tension_values}, contact_forces{contact_force_name};
+constexpr std::array<const ParticleArray*, 5> particle_arrays{&positions, &velocities, &contacts, &tensions,
+                                                              &contact_forces};
+constexpr std::size_t arrays_without_fields = 3;
 
 /// Returns a cloth's values under its own names, and those of the frame's effort and of what was given, which are all
 /// cloths'.
@@ -48,7 +51,7 @@ class NpzFile {
   public:
     NpzFile(OutputFolder& folder, const WrittenRun& run, const WrittenCloth& cloth)
         : folder_(folder), run_(run), cloth_(cloth), numbers_(folder) {
-        for (std::size_t i = 0; i < particle_arrays.size(); ++i) {
+        for (std::size_t i = 0; i < array_count(); ++i) {
             const ParticleArray& array = *particle_arrays[i];
             waiting_[i] = std::make_unique<NpyWriter>(folder, cloth_file_name(waiting_stem(array), cloth, "npz"),
                                                       run.frame_count(), cloth.rows, cloth.columns, array.values);
@@ -62,6 +65,10 @@ class NpzFile {
         waiting_[0]->append_frame_xyzw(frame.positions[cloth]);
         waiting_[1]->append_frame_xyzw(frame.velocities[cloth]);
         waiting_[2]->append_bytes(std::as_bytes(frame.contacts[cloth]));
+        if (run_.fields) {
+            waiting_[3]->append_bytes(std::as_bytes(frame.tensions[cloth]));
+            waiting_[4]->append_frame_xyzw(frame.contact_forces[cloth]);
+        }
         numbers_.add(frame.number, numbers_of(frame.values, cloth_.label));
     }
 
@@ -69,11 +76,16 @@ class NpzFile {
         cut_faces_.emplace_back(fmt::format("faces_{:04}.npy", frame), face_array(faces));
     }
 
+    void set_springs(std::uint32_t frame, const std::vector<std::uint8_t>& springs) {
+        cut_faces_.emplace_back(fmt::format("{}_{:04}.npy", springs_name, frame), springs_array(springs));
+    }
+
     FileRecord finish() {
         ZipFile archive(folder_, cloth_file_name("positions", cloth_, "npz"), run_.deflates);
-        for (std::size_t i = 0; i < particle_arrays.size(); ++i)
+        for (std::size_t i = 0; i < array_count(); ++i)
             archive.add(fmt::format("{}.npy", particle_arrays[i]->name), waiting_[i]->contents());
         archive.add("faces.npy", face_array(cloth_.faces));
+        if (!cloth_.springs.empty()) archive.add(fmt::format("{}.npy", springs_name), springs_array(cloth_.springs));
         for (const auto& [name, array] : cut_faces_) archive.add(name, array);
         archive.add("uv.npy", uv_array());
         const std::vector<std::uint32_t> numbers = numbers_.frames();
@@ -92,6 +104,10 @@ class NpzFile {
     }
 
   private:
+    std::size_t array_count() const { return run_.fields ? particle_arrays.size() : arrays_without_fields; }
+    std::string springs_array(const std::vector<std::uint8_t>& springs) const {
+        return npy_array("|u1", fmt::format("{}, {}", cloth_.rows, cloth_.columns), std::as_bytes(std::span(springs)));
+    }
     std::string uv_array() const {
         std::vector<std::array<float, 2>> uv;
         for (std::size_t particle = 0; particle < cloth_.particle_count(); ++particle)
@@ -103,7 +119,7 @@ class NpzFile {
     const WrittenRun& run_;
     WrittenCloth cloth_;
     std::array<std::unique_ptr<NpyWriter>, particle_arrays.size()> waiting_;
-    std::vector<std::pair<std::string, std::string>> cut_faces_;  ///< name, array
+    std::vector<std::pair<std::string, std::string>> cut_faces_;  ///< and springs: name, array
     FrameTable numbers_;
 };
 
@@ -120,6 +136,9 @@ class NpzFiles : public FrameWriter {
 
     void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override {
         archives_[cloth]->set_faces(frame, faces);
+    }
+    void set_springs(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint8_t>& springs) override {
+        archives_[cloth]->set_springs(frame, springs);
     }
 
     std::vector<FileRecord> finish() override {
@@ -148,7 +167,12 @@ extern const OutputFormat npz_format{
     .holds =
         "positions as in npy; velocities likewise, m/s; contacts [frame, row, column], the number of the collider "
         "that a particle touches, or -1; faces [face, 3], after a cut faces_FRAME, from that frame on; uv [row, "
-        "column, 2]; frames and times (s) [frame]; the manifest's numbers of each frame, stretch_error_rms, "
+        "column, 2]; with cuts, tears or \"forces\": \"fields\" springs [row, column], after a cut springs_FRAME, bits "
+        "of the springs that are there, 1 for that to the right (column + 1), 2 down (row + 1), 4 down right, 8 down "
+        "left; with \"fields\" tension [frame, row, column, 4], N, what these four bear, and contact_force [frame, "
+        "row, "
+        "column, 3], N, of colliders, the frame's mean; frames and times (s) [frame]; the manifest's numbers of each "
+        "frame, stretch_error_rms, "
         "kinetic_energy_j and so on [frame]; what was given to each frame, given_wind_x_m_s and so on [frame]; what "
         "overrides set, set/POINTER; seed, of the gusts; parameters, what the run chose, and scene, with "
         "every default, JSON",

@@ -65,6 +65,10 @@ std::string vtu_text(const WrittenCloth& cloth, const WrittenMesh& mesh) {
     text += data.array("Float32", "velocity", 3, without_w(mesh.velocities));
     text += data.array("Int16", "contact", 1, std::vector<std::int16_t>(mesh.contacts.begin(), mesh.contacts.end()));
     text += data.array("Float32", "uv", 2, uv);
+    if (!cloth.springs.empty()) text += data.array("UInt8", "springs", 1, cloth.springs);
+    if (!mesh.tensions.empty())
+        text += data.array("Float32", "tension", 4, std::vector<float>(mesh.tensions.begin(), mesh.tensions.end()));
+    if (!mesh.contact_forces.empty()) text += data.array("Float32", "contact_force", 3, without_w(mesh.contact_forces));
     return grid_text(data, text + "</PointData>\n", without_w(mesh.positions), cloth.faces);
 }
 
@@ -135,8 +139,9 @@ extern const OutputFormat vtu_format{
     .name = "vtu",
     .files = "mesh_FRAME.vtu, mesh.pvd, colliders.vtu, colliders_FRAME.vtu, colliders.pvd",
     .holds =
-        "VTK grids of triangles with velocity (m/s), contact and uv of every particle; mesh.pvd gives them their "
-        "times; colliders likewise, with the number that contact has; colliders.pvd",
+        "VTK grids of triangles with velocity (m/s), contact and uv of every particle, and what NPZ has of springs and "
+        "forces (springs, tension, contact_force); mesh.pvd gives them their times; colliders likewise, with the "
+        "number that contact has; colliders.pvd",
     .details = true,
     .frame_files = true,
     .frame_bytes =

@@ -32,6 +32,7 @@ struct WrittenCloth {
     Up up = Up::y;                     ///< of the world in whose coordinates the files are
     /// m: where each particle lies on the flat cloth of an outline (Cloth::panel); empty: on the grid.
     std::vector<std::array<double, 2>> panel{};
+    std::vector<std::uint8_t> springs{};  ///< Simulation::spring_bits; empty: they are not written
 
     std::size_t particle_count() const { return std::size_t{columns} * rows; }
     /// Returns where the particle is in the cloth, 0 .. 1: along the columns, and from the last row up to row 0.
@@ -59,6 +60,7 @@ struct WrittenRun {
     std::shared_ptr<BodyTracks> bodies = std::make_shared<BodyTracks>();
     std::vector<WrittenCollider> colliders = {};
     std::vector<WrittenCollider> obstacles = {};  ///< the same colliders for graph networks, which know only nodes
+    bool fields = false;                          ///< frames have tensions and contact forces
 
     std::uint32_t frame_count() const { return (end - start) / step + 1; }
 };
@@ -72,6 +74,7 @@ struct WrittenFrame {
     std::vector<std::span<const std::int16_t>> contacts;  ///< per cloth: the collider that a particle touches, or -1
     FrameValues values;
     std::span<const LayerPixel> layers = {};  ///< of the picture's size, rows from the top
+    std::vector<std::span<const float>> tensions = {}, contact_forces = {};  ///< per cloth: of FinishedFrame
 };
 
 /// Writes the frames of a run into its folder; for use by one thread. Every member throws OutputError. Files appear
@@ -88,6 +91,10 @@ class FrameWriter {
     /// From `frame` on, which has not been added yet, the cloth has these triangles, which no cut has split.
     virtual void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
         (void)frame, (void)cloth, (void)faces;
+    }
+    /// Likewise the springs that are there from `frame` on (WrittenCloth::springs).
+    virtual void set_springs(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint8_t>& springs) {
+        (void)frame, (void)cloth, (void)springs;
     }
     /// Waits until the files of the single frames added so far are whole.
     virtual void flush() {}

@@ -16,7 +16,7 @@ namespace drape {
 namespace {
 
 constexpr std::string_view magic = "DRAPEJNL";
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 // The largest number of bytes that wait in memory while there is no file, and once there is one.
 constexpr std::size_t most_before_file = std::size_t{8} << 20, most_behind_file = std::size_t{1} << 20;
 
@@ -24,14 +24,14 @@ template <class Archive, class Record>
 void transfer(Archive& archive, Record& record, std::uint32_t& kind) {
     archive(kind, record.frame);
     if (kind == static_cast<std::uint32_t>(JournalRecord::Kind::cut))
-        archive(record.cloth, record.springs, record.torn, record.triangles, record.pieces, record.crumbs,
-                record.faces);
+        archive(record.cloth, record.springs, record.torn, record.triangles, record.pieces, record.crumbs, record.faces,
+                record.spring_bits);
 }
 
 void put_values(ByteWriter& writer, const JournalRecord& record) {
     writer(std::uint64_t{record.values.size()});
     for (const auto& [name, value] : record.values) writer(name, value);
-    for (const auto* arrays : {&record.positions, &record.velocities}) {
+    for (const auto* arrays : {&record.positions, &record.velocities, &record.tensions, &record.contact_forces}) {
         writer(std::uint64_t{arrays->size()});
         for (const std::vector<float>& cloth : *arrays) {
             writer(std::uint64_t{cloth.size()});
@@ -59,8 +59,8 @@ void get_values(ByteReader& reader, JournalRecord& record) {
         reader(name);
         reader(record.values[name]);
     }
-    get_arrays(reader, record.positions);
-    get_arrays(reader, record.velocities);
+    for (auto* const arrays : {&record.positions, &record.velocities, &record.tensions, &record.contact_forces})
+        get_arrays(reader, *arrays);
 }
 
 std::vector<std::byte> head_of(const std::string& run_key) {

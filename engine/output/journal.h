@@ -21,10 +21,11 @@ struct JournalRecord {
     std::uint32_t frame = 0;
     FrameValues values{};  // only with a frame
     // Only with a frame, per cloth: x y z w of every particle; empty where no format needs them.
-    std::vector<std::vector<float>> positions{}, velocities{};
+    std::vector<std::vector<float>> positions{}, velocities{}, tensions{}, contact_forces{};
     // Only with a cut.
     std::uint32_t cloth = 0, springs = 0, torn = 0, triangles = 0, pieces = 0, crumbs = 0;
     std::vector<std::uint32_t> faces{};
+    std::vector<std::uint8_t> spring_bits{};
 };
 
 // Convert a record to and from bytes (engine/docs/checkpoint.md). decode_record throws Error when the bytes are no

@@ -46,14 +46,19 @@ void FaceSequence::add(const WrittenFrame& frame) {
     // Cuts are reported when they are found, while earlier frames may still wait for their pictures.
     std::erase_if(changes_, [&](Change& change) {
         const bool due = change.frame <= frame.number;
-        if (due) run_.cloths[change.cloth].faces = std::move(change.faces);
+        if (due && !change.springs.empty())
+            run_.cloths[change.cloth].springs = std::move(change.springs);
+        else if (due)
+            run_.cloths[change.cloth].faces = std::move(change.faces);
         return due;
     });
     for (std::size_t i = 0; i < run_.cloths.size(); ++i) {
         const WrittenCloth& cloth = run_.cloths[i];
-        WrittenMesh mesh{frame.positions[i], {}, {}};
+        WrittenMesh mesh{frame.positions[i], {}, {}, {}, {}};
         if (!frame.velocities.empty()) mesh.velocities = frame.velocities[i];
         if (!frame.contacts.empty()) mesh.contacts = frame.contacts[i];
+        if (!frame.tensions.empty()) mesh.tensions = frame.tensions[i];
+        if (!frame.contact_forces.empty()) mesh.contact_forces = frame.contact_forces[i];
         const std::string name = cloth_frame_file_name("mesh", cloth, frame.number, frame_digits(run_.end), extension_);
         files_.push_back(write_file(folder_, name, bytes_of(texts_.cloth(cloth, mesh))));
     }
@@ -76,7 +81,11 @@ void FaceSequence::write_colliders(bool moving, const std::string& name, std::ui
 }
 
 void FaceSequence::set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) {
-    changes_.push_back({frame, cloth, faces});
+    changes_.push_back({frame, cloth, faces, {}});
+}
+
+void FaceSequence::set_springs(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint8_t>& springs) {
+    changes_.push_back({frame, cloth, {}, springs});
 }
 
 }  // namespace drape

@@ -9,6 +9,7 @@ namespace drape {
 struct WrittenMesh {
     std::span<const float> positions, velocities;
     std::span<const std::int16_t> contacts;
+    std::span<const float> tensions, contact_forces;  ///< empty: not wanted
 };
 
 /// A collider in a frame.
@@ -42,6 +43,7 @@ class FaceSequence : public FrameWriter {
 
     void add(const WrittenFrame& frame) override;
     void set_faces(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint32_t>& faces) override;
+    void set_springs(std::uint32_t frame, std::size_t cloth, const std::vector<std::uint8_t>& springs) override;
     std::vector<FileRecord> finish() override { return std::move(files_); }
 
   protected:
@@ -54,11 +56,12 @@ class FaceSequence : public FrameWriter {
     void write_colliders(bool moving, const std::string& name, std::uint32_t frame);
 
     OutputFolder& folder_;
-    /// The faces of a cloth from a frame on that has not been added yet.
+    /// The springs of a cloth, or else its faces, from a frame on that has not been added yet.
     struct Change {
         std::uint32_t frame;
         std::size_t cloth;
         std::vector<std::uint32_t> faces;
+        std::vector<std::uint8_t> springs;
     };
 
     WrittenRun run_;               ///< has the faces of the frame that was added last

@@ -32,6 +32,11 @@ struct NpyValues {
     std::uint32_t components = 3;  // 1: the array has no axis for them
 };
 
+// What npz and npy files call the forces on springs and particles, and the springs that are there
+// (FinishedFrame, Simulation::spring_bits).
+inline constexpr const char *tension_name = "tension", *contact_force_name = "contact_force", *springs_name = "springs";
+inline constexpr NpyValues tension_values{"<f4", 4, 4};
+
 // Streams frames into a NumPy file: C order, shape [frame, row, column, 3], positions as little-endian float32, in
 // version 1.0 of https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html. The file appears at finish();
 // a writer that ends without it leaves nothing.

@@ -19,6 +19,8 @@ class FrameCopy {
         keep(frame.positions, positions_, frame_.positions);
         keep(frame.velocities, velocities_, frame_.velocities);
         keep(frame.normals, normals_, frame_.normals);
+        keep(frame.tensions, tensions_, frame_.tensions);
+        keep(frame.contact_forces, contact_forces_, frame_.contact_forces);
     }
     const FinishedFrame& frame() const { return frame_; }
     FrameEffort& effort() { return frame_.effort; }
@@ -37,7 +39,7 @@ class FrameCopy {
     FinishedFrame frame_;
     std::vector<std::uint8_t> rgba_;
     std::vector<LayerPixel> layers_;
-    Arrays positions_, velocities_, normals_;
+    Arrays positions_, velocities_, normals_, tensions_, contact_forces_;
 };
 
 }  // namespace drape

@@ -6,6 +6,7 @@
 
 #include "run/contact_proof.h"
 #include "run/reproducer.h"
+#include "scene/scene_document.h"
 #include "simulation/frame_checks.h"
 #include "world/start_crossings.h"
 
@@ -24,11 +25,17 @@ void expect_of_scene(const JournalRecord& record, const SceneDescription& scene)
     };
     const auto cuts = [&] {
         return record.cloth < scene.cloths.size() && record.faces.size() % 3 == 0 &&
+               record.spring_bits.size() == particles(scene.cloths[record.cloth]) &&
                std::ranges::all_of(record.faces, [&, count = particles(scene.cloths[record.cloth])](
                                                      std::uint32_t particle) { return particle < count; });
     };
-    if (!(record.kind == JournalRecord::Kind::cut ? cuts() : fits(record.positions) && fits(record.velocities)))
-        throw Error("a record of another scene");
+    const auto fields = [&] {
+        const bool told = scene.force_fields && !record.positions.empty();
+        return fits(record.tensions) && fits(record.contact_forces) && record.tensions.empty() != told &&
+               record.contact_forces.empty() != told;
+    };
+    const auto frame = [&] { return fits(record.positions) && fits(record.velocities) && fields(); };
+    if (!(record.kind == JournalRecord::Kind::cut ? cuts() : frame())) throw Error("a record of another scene");
 }
 
 /// Returns the checkpoint from which a run goes on: everything before it must be there, as pictures and, for arrays, in
@@ -138,6 +145,15 @@ SimulationOptions FolderRun::options() {
         if (progress_) progress_->frame_begun(attempt.frame, attempt.substeps, attempt.number);
     };
     return options;
+}
+
+Simulation FolderRun::simulation() {
+    try {
+        return Simulation(scene(), options(), device());
+    } catch (const SceneFailure& failure) {
+        throw SceneFailure(
+            with_places(failure.result(), planned_.scene.text, request_.scene.path, request_.scene.overrides));
+    }
 }
 
 void FolderRun::begin(Simulation& simulation) {

@@ -27,6 +27,8 @@ class FolderRun {
     const Device& device() const { return *device_; }
     /// Returns the options of the simulation that this run needs; their callbacks report to this run.
     SimulationOptions options();
+    /// Makes this run's simulation. Throws SceneFailure with places in the scene's file.
+    Simulation simulation();
     /// Receives the simulation, which must live until `finish`.
     void begin(Simulation& simulation);
     /// Simulates the missing frames, with checkpoints.

@@ -70,12 +70,17 @@ void Sink::add(const FinishedFrame& frame) {
                                frame.velocities,
                                {contacts.begin(), contacts.end()},
                                frame_values(scene_, frame),
-                               frame.layers};
+                               frame.layers,
+                               frame.tensions,
+                               frame.contact_forces};
     write(written);
     if (journal_) {
         JournalRecord record{.frame = frame.frame, .values = written.values};
-        for (const auto& cloth : frame.positions) record.positions.emplace_back(cloth.begin(), cloth.end());
-        for (const auto& cloth : frame.velocities) record.velocities.emplace_back(cloth.begin(), cloth.end());
+        const auto copy = [](const std::vector<std::span<const float>>& from, std::vector<std::vector<float>>& to) {
+            for (const auto& cloth : from) to.emplace_back(cloth.begin(), cloth.end());
+        };
+        copy(frame.positions, record.positions), copy(frame.velocities, record.velocities);
+        copy(frame.tensions, record.tensions), copy(frame.contact_forces, record.contact_forces);
         journal_->add(record);
     }
     const auto now = std::chrono::steady_clock::now();
@@ -89,6 +94,8 @@ void Sink::repeat(const JournalRecord& frame) {
     WrittenFrame written{frame.frame, {}, {}, {}, {}, frame.values};
     for (const auto& cloth : frame.positions) written.positions.emplace_back(cloth);
     for (const auto& cloth : frame.velocities) written.velocities.emplace_back(cloth);
+    for (const auto& cloth : frame.tensions) written.tensions.emplace_back(cloth);
+    for (const auto& cloth : frame.contact_forces) written.contact_forces.emplace_back(cloth);
     (*bodies_)[frame.frame] = bodies_of(scene_, frame.values);
     const Contacts contacts = touched(frame.frame, written.positions);
     for (const auto& cloth : contacts) written.contacts.emplace_back(cloth);
@@ -104,7 +111,8 @@ void Sink::add_cut(const Cut& cut) {
                                .triangles = cut.triangles,
                                .pieces = cut.pieces,
                                .crumbs = cut.crumbs,
-                               .faces = cut.faces};
+                               .faces = cut.faces,
+                               .spring_bits = cut.spring_bits};
     if (journal_) journal_->add(record);
     repeat_cut(record);
 }
@@ -112,7 +120,10 @@ void Sink::add_cut(const Cut& cut) {
 void Sink::repeat_cut(const JournalRecord& cut) {
     cuts_.push_back(
         {cut.frame, scene_.cloths.at(cut.cloth).name, cut.springs, cut.torn, cut.triangles, cut.pieces, cut.crumbs});
-    for (const Writer& writer : writers_) writer.files->set_faces(cut.frame + 1, cut.cloth, cut.faces);
+    for (const Writer& writer : writers_) {
+        writer.files->set_faces(cut.frame + 1, cut.cloth, cut.faces);
+        writer.files->set_springs(cut.frame + 1, cut.cloth, cut.spring_bits);
+    }
 }
 
 void Sink::flush() {

@@ -122,6 +122,7 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
     run.step = static_cast<std::uint32_t>(manifest.frames.step);
     run.fps = scene.time.fps;
     run.cuts = scene.comes_apart();
+    run.fields = scene.force_fields;
     run.width = scene.image.size[0], run.height = scene.image.size[1];
     run.alpha = scene.image.alpha;
     run.deflates = request.deflates;
@@ -139,7 +140,8 @@ WrittenRun written_run(const RunRequest& request, const LoadedScene& loaded, con
         const Cloth& description = scene.cloths[cloth];
         run.cloths.push_back({scene.cloths.size() == 1 ? "" : description.name, description.grid[0],
                               description.grid[1], simulation.triangles(cloth), description.name, description.size,
-                              held_at_start(description), scene.up, description.panel});
+                              held_at_start(description), scene.up, description.panel,
+                              run.cuts || run.fields ? simulation.spring_bits(cloth) : std::vector<std::uint8_t>()});
     }
     return run;
 }

@@ -15,7 +15,7 @@ RunSummary run_scene(const RunRequest& request) {
         starting.emplace(printable(request.scene.path) + ": still being read and prepared ...", request.message);
     FolderRun run(request);
     {
-        Simulation simulation(run.scene(), run.options(), run.device());
+        Simulation simulation = run.simulation();
         run.begin(simulation);
         starting.reset();
         run.simulate();

@@ -220,4 +220,28 @@ Json::Value* SceneDocument::find_target(const std::string& pointer, std::size_t 
     return value;
 }
 
+std::size_t SceneDocument::offset_of(const std::string& pointer) const {
+    const Json::Value* value = &root_;
+    for (std::size_t begin = 1; begin < pointer.size();) {
+        const std::size_t end = std::min(pointer.find('/', begin), pointer.size());
+        const std::string token = unescaped_token(pointer.substr(begin, end - begin));
+        begin = end + 1;
+        const auto index = parse_index(token);
+        const bool is_element = value->isArray() && index && *index < value->size();
+        if (!is_element && !(value->isObject() && value->isMember(token))) break;
+        value = is_element ? &(*value)[*index] : &(*value)[token];
+    }
+    return static_cast<std::size_t>(value->getOffsetStart());
+}
+
+SceneResult with_places(SceneResult result, std::string_view text, const std::string& file_name,
+                        std::span<const std::string> overrides) {
+    SceneDocument document(text, file_name);
+    for (const std::string& each : overrides) document.apply_override(each);
+    for (SceneError& error : result.errors)
+        if (error.line == 0)
+            error = document.place(document.offset_of(error.pointer), error.pointer, error.message).error;
+    return result;
+}
+
 }  // namespace drape

@@ -38,6 +38,8 @@ class SceneDocument {
     const Json::Value& root() const { return root_; }
 
     PlacedError place(std::size_t offset, std::string pointer, std::string message) const;
+    /// Returns where the value that a pointer leads to is written, or the last on the way to it that is there.
+    std::size_t offset_of(const std::string& pointer) const;
     /// Returns the text that a value was written as.
     std::string_view written(const Json::Value& value) const;
     /// Returns where the key of `value`, a member of `object`, is written, or the value's own place when it has no key
@@ -64,5 +66,10 @@ class SceneDocument {
     std::vector<std::size_t> trailing_commas_;
     std::map<const Json::Value*, std::map<std::string, std::size_t>> keys_;  ///< filled on demand
 };
+
+/// Returns the errors of a scene that was read from a file's text, each that has no line with the place of its pointer
+/// there: what only a simulation finds.
+SceneResult with_places(SceneResult result, std::string_view text, const std::string& file_name,
+                        std::span<const std::string> overrides);
 
 }  // namespace drape

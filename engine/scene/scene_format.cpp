@@ -419,10 +419,11 @@ const Object<SceneDescription> scene{
         {"cutters", &SceneDescription::cutters, list<Cutter>(cutter, "an array of at most 1024 cutters", 0, 1024),
          "Triangles that cut the cloth."},
         {"solver", &SceneDescription::solver, solver, "How the cloth is moved."},
-        {"forces", true_or_worst(), read_forces,
+        {"forces", how_much_of_forces(), read_forces,
          "Whether the numbers of each frame tell the forces on each cloth: at each of its pins, of each collider, of "
          "gravity, air, damping and other cloths. \"worst\": also the largest force of a substep, of colliders, other "
-         "cloths, air and loads. Absent: false."},
+         "cloths, air and loads. \"fields\": all this and, beside exported positions, what each spring bears and what "
+         "colliders do to each particle. Absent: false."},
         {"actions", &SceneDescription::actions, optional<SceneActions>(actions),
          "What it is told on the way: what an ensemble was told. Absent: nothing."},
         {"camera", &SceneDescription::camera, optional<Camera>(camera),

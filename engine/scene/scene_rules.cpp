@@ -130,16 +130,18 @@ Value<std::array<Vec3, 3>> triangle(const Value<Vec3>& point) {
             }};
 }
 
-ValueText true_or_worst() {
-    return {R"("anyOf": [{"type": "boolean"}, {"const": "worst"}])", "`true`, `false` or `\"worst\"`"};
+ValueText how_much_of_forces() {
+    return {R"("anyOf": [{"type": "boolean"}, {"enum": ["worst", "fields"]}])",
+            "`true`, `false`, `\"worst\"` or `\"fields\"`"};
 }
 
 bool read_forces(const SceneNode& node, SceneDescription& scene) {
     if (!node) return true;
-    scene.worst_forces = node.value()->isString() && *node.value() == "worst";
+    scene.force_fields = node.value()->isString() && *node.value() == "fields";
+    scene.worst_forces = scene.force_fields || (node.value()->isString() && *node.value() == "worst");
     scene.forces = scene.worst_forces;
     if (scene.worst_forces) return true;
-    if (!node.value()->isBool()) return node.fail_expected("true, false or \"worst\"");
+    if (!node.value()->isBool()) return node.fail_expected("true, false, \"worst\" or \"fields\"");
     return node.read(scene.forces);
 }
 

@@ -126,8 +126,8 @@ bool read_hands(const SceneNode& node, SceneActions& actions);
 bool check_steps(const Members& members, SceneActions& actions);
 /// Checks what the scene is told against its cloths and colliders.
 bool check_actions(const Members& members, SceneDescription& scene);
-/// Whether a scene tells forces, and the worst of them.
-ValueText true_or_worst();
+/// Whether a scene tells forces, the worst of them, and what springs and particles bear.
+ValueText how_much_of_forces();
 bool read_forces(const SceneNode& node, SceneDescription& scene);
 bool check_cutter_times(const SceneNode& node, Cutter& cutter);
 bool check_solver(const Members& members, SolverSettings& solver);

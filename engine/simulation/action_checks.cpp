@@ -18,8 +18,7 @@ constexpr std::size_t numbers_of_key = 6, numbers_of_grasp = 4;
 void check_list(std::size_t size, const char* name, bool is_control, std::size_t per_member, std::size_t members) {
     if (size == 0) return;
     if (!is_control)
-        throw ActionError(
-            fmt::format("actions: the ensemble was made without control of {0}: ask for it in controls", name), 0);
+        throw ActionError(fmt::format("actions: made without control of {0}: ask for it in controls", name), 0);
     if (size != per_member * members)
         throw ActionError(fmt::format("actions: {} has {} numbers, {} members with {} each are {}", name, size, members,
                                       per_member, per_member * members),
@@ -203,8 +202,6 @@ std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t ind
     return IndexBox{{number(0), number(1)}, {number(2), number(3)}};
 }
 
-namespace {
-
 void check_lists(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
                  std::size_t count) {
     const std::size_t pins = pin_count(model), hands = controls.hands.size();
@@ -219,6 +216,8 @@ void check_lists(const EnsembleActions& actions, const EnsembleControls& control
     check_list(actions.holds.size(), "holds", controls.holds, pins, count);
     check_list(actions.grasps.size(), "grasps", hands > 0, numbers_of_grasp * hands, count);
 }
+
+namespace {
 
 void check_member(const EnsembleActions& actions, std::size_t number, std::uint32_t frame,
                   const SimulationModel& model) {

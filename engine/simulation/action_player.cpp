@@ -65,6 +65,20 @@ std::vector<bool> part(std::span<const std::uint8_t> all, std::size_t number, st
     return own;
 }
 
+/// Returns actions with what is told in addition, which counts where both tell the same.
+FrameActions with(FrameActions actions, const FrameActions& more) {
+    if (more.wind) actions.wind = more.wind;
+    if (more.gravity) actions.gravity = more.gravity;
+    const auto take = [](auto& list, const auto& told) {
+        if (!told.empty()) list = told;
+    };
+    take(actions.pins, more.pins), take(actions.colliders, more.colliders), take(actions.hands, more.hands);
+    take(actions.holds, more.holds), take(actions.grasps, more.grasps), take(actions.loads, more.loads);
+    take(actions.body_forces, more.body_forces), take(actions.body_impulses, more.body_impulses);
+    take(actions.body_velocities, more.body_velocities), take(actions.body_sets, more.body_sets);
+    return actions;
+}
+
 }  // namespace
 
 EnsembleControls controls_of(const SceneDescription& scene) {
@@ -97,16 +111,22 @@ FrameActions part_of(const EnsembleActions& actions, std::size_t number, const S
 
 bool is_any(const FrameActions& actions) { return actions != FrameActions{.frame = actions.frame}; }
 
-ActionPlayer::ActionPlayer(SimulationModel& model) : model_(model), start_(model), shown_(model.scene) {
-    const std::vector<FrameActions>& steps = model.scene.actions->steps;
-    const std::uint32_t last = std::max(model.scene.time.frame_count, steps.empty() ? 1 : steps.back().frame + 1) - 1;
-    std::size_t step = 0;
+ActionPlayer::ActionPlayer(SimulationModel& model, bool is_told)
+    : model_(model), is_told_(is_told), start_(model), shown_(model.scene) {
     show(0);
+    if (!is_told) play_all();
+    put(0);
+}
+
+/// Plays all actions of the scene, to show them, and to find those that cannot be followed.
+void ActionPlayer::play_all() {
+    const std::vector<FrameActions>& steps = this->steps();
+    const std::uint32_t last = std::max(model_.scene.time.frame_count, steps.empty() ? 1 : steps.back().frame + 1) - 1;
+    std::size_t step = 0;
     try {
         for (std::uint32_t frame = 1; frame <= last; ++frame) {
             while (step + 1 < steps.size() && steps[step].frame < frame) ++step;
             play(frame);
-            show(frame);
         }
     } catch (const ActionError& error) {
         SceneResult result;
@@ -114,13 +134,34 @@ ActionPlayer::ActionPlayer(SimulationModel& model) : model_(model), start_(model
                                  fmt::format("frame {}: {}", steps[step].frame, error.what())});
         throw SceneFailure(std::move(result));
     }
+}
+
+void ActionPlayer::tell(const EnsembleActions& actions, std::uint32_t frame) {
+    std::vector<FrameActions>& steps = model_.scene.actions->steps;
+    const EnsembleControls& controls = model_.scene.actions->controls;
+    if (frame_ + 1 != frame) put(frame - 1);
+    check_lists(actions, controls, model_, 1);
+    const bool again = !steps.empty() && steps.back().frame == frame;
+    const FrameActions all =
+        with(again ? steps.back() : FrameActions{.frame = frame}, part_of(actions, 0, model_, frame));
+    check_actions(OneMember(all).actions(), controls, model_, frame - 1);
+    if (!is_any(all)) return;
+    if (again) steps.pop_back();
+    steps.push_back(all);
+    if (again) shown_.actions->steps.pop_back();
+    shown_.actions->steps.push_back(all);
+}
+
+void ActionPlayer::take(std::vector<FrameActions> steps) {
+    shown_.actions->steps = model_.scene.actions->steps = std::move(steps);
     put(0);
+    shown_until_ = 0;
+    show(0);
 }
 
 const FrameActions* ActionPlayer::told(std::uint32_t frame) const {
-    const std::vector<FrameActions>& steps = model_.scene.actions->steps;
-    const auto found = std::ranges::lower_bound(steps, frame, {}, &FrameActions::frame);
-    return found == steps.end() || found->frame != frame ? nullptr : &*found;
+    const auto found = std::ranges::lower_bound(steps(), frame, {}, &FrameActions::frame);
+    return found == steps().end() || found->frame != frame ? nullptr : &*found;
 }
 
 void ActionPlayer::play(std::uint32_t frame) {
@@ -130,6 +171,9 @@ void ActionPlayer::play(std::uint32_t frame) {
     if (own) check_actions(actions, model_.scene.actions->controls, model_, frame - 1);
     act(actions, 0, frame - 1, model_, acted_);
     frame_ = frame;
+    if (frame <= shown_until_) return;
+    show(frame);
+    shown_until_ = frame;
 }
 
 bool ActionPlayer::put(std::uint32_t frame) {

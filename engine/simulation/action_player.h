@@ -1,4 +1,5 @@
-// Plays a scene's actions (SceneDescription::actions), as an ensemble's steps would tell them.
+// Plays a scene's actions (SceneDescription::actions), as an ensemble's steps would tell them: those that it has, or
+// those that it is told while it runs.
 #pragma once
 
 #include "simulation/member.h"
@@ -54,25 +55,35 @@ void transfer_actions(Archive& archive, std::vector<FrameActions>& steps) {
 
 class ActionPlayer {
   public:
-    /// `model` is of a scene with actions, which has taken none, and outlives the player. Throws SceneFailure for one
-    /// that cannot be followed.
-    explicit ActionPlayer(SimulationModel& model);
+    /// `model` is of a scene with actions, which has taken none, and outlives the player. `is_told`: more will be told
+    /// (`tell`). Throws SceneFailure for actions that cannot be followed.
+    ActionPlayer(SimulationModel& model, bool is_told);
 
     /// Puts into the model what holds in the step to a frame. Returns whether something new is told for it.
     bool put(std::uint32_t frame);
+    /// Tells what holds in the step to a frame, whose step before is put; it is added to what was told for that frame.
+    /// Throws ActionError, and nothing has changed.
+    void tell(const EnsembleActions& actions, std::uint32_t frame);
+    bool is_told() const { return is_told_; }
+    const std::vector<FrameActions>& steps() const { return model_.scene.actions->steps; }
+    /// Replaces all that was told; what was put is forgotten.
+    void take(std::vector<FrameActions> steps);
     /// Returns the scene with keys, at the times of its frames, of all that the actions move, for those who ask where
-    /// things are in any frame.
+    /// things are in any frame; of a scene that is told while it runs, in any frame so far.
     const SceneDescription& shown() const { return shown_; }
 
   private:
     const FrameActions* told(std::uint32_t frame) const;
     void play(std::uint32_t frame);
+    void play_all();
     void show(std::uint32_t frame);
 
     SimulationModel& model_;
+    bool is_told_;
     MemberMotion start_;
     Acted acted_;
-    std::uint32_t frame_ = 0;  ///< what the model has is for the step to this one
+    std::uint32_t frame_ = 0;        ///< what the model has is for the step to this one
+    std::uint32_t shown_until_ = 0;  ///< the last frame of which `shown_` has keys
     SceneDescription shown_;
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "cloth/members.h"
+#include "cloth/spring_tension.h"
 #include "cloth/substep_change.h"
 #include "solver/contact_readback.h"
 #include "solver/host_inputs.h"
@@ -69,6 +70,35 @@ std::span<const float> read_bodies(const FrameGraphs& graphs, std::uint32_t slot
     const std::string name = readback_name(layout.state_name(cloth), bodies_readback);
     const std::span<const std::byte> bytes = layout.part_of(cloth, graphs.pool().buffer(name, slot));
     return {reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)};
+}
+
+/// What the springs and particles of a member bear in a frame, by cloth.
+struct ForceFields {
+    std::vector<std::vector<float>> tensions{}, contacts{};
+};
+
+ForceFields read_fields(FrameGraphs& graphs, std::uint32_t slot, const FinishedFrame& frame, std::size_t member,
+                        const Work& work) {
+    const ClothLayout& layout = graphs.layout();
+    const std::uint32_t substeps = work.substeps > 0 ? work.substeps : work.history_substeps;
+    const SimulationModel& run = graphs.member_at(member, graphs.joint().closed_loop() ? substeps : 0);
+    const auto read = [&](std::size_t cloth, std::string_view what) -> std::span<const float> {
+        const std::string name = readback_name(layout.state_name(cloth), what);
+        if (work.frame == 0 || !graphs.pool().has(name)) return {};
+        const std::span<const std::byte> bytes = layout.part_of(cloth, graphs.pool().buffer(name, slot));
+        return {reinterpret_cast<const float*>(bytes.data()), bytes.size() / sizeof(float)};
+    };
+    ForceFields fields;
+    for (std::size_t cloth = 0; cloth < graphs.cloths_each(); ++cloth) {
+        const std::size_t k = member * graphs.cloths_each() + cloth;
+        PerDirection<std::span<const float>> kept;
+        for (std::size_t direction = 0; direction < kept.size(); ++direction)
+            if (keeps_tension(run.cloths[cloth], direction)) kept[direction] = read(k, tension_readbacks[direction]);
+        fields.tensions.push_back(
+            spring_tensions(run, cloth, layout.topologies[k], work.frame, frame.positions[cloth], kept));
+        fields.contacts.push_back(contact_forces(run, cloth, read(k, contact_readback)));
+    }
+    return fields;
 }
 
 }  // namespace
@@ -195,6 +225,10 @@ void hand_out(FrameGraphs& graphs, std::uint32_t slot, const Flight& flight,
                 write_velocities(arrays.moved[k], arrays.excess[k], fps * work.substeps, velocities.back());
         }
         for (const std::vector<float>& array : velocities) frame.velocities.emplace_back(array);
+        ForceFields fields;
+        if (wanted && options.fields) fields = read_fields(graphs, slot, frame, flight.members[place], work);
+        for (const std::vector<float>& array : fields.tensions) frame.tensions.emplace_back(array);
+        for (const std::vector<float>& array : fields.contacts) frame.contact_forces.emplace_back(array);
         take(place, frame);
     }
 }

@@ -20,6 +20,11 @@ void note_skipped(graph::Graph& graph, const SceneDescription& scene, const Fram
         graph.skip(options.normals ? "raster and colour readback" : "normals, raster and colour readback",
                    "no picture is wanted");
     if (!options.positions) graph.skip("position readback", "no position export is wanted");
+    if (!options.fields)
+        graph.skip("readback of tensions and contact forces",
+                   scene.force_fields ? "no position export is wanted" : "the scene does not ask for them");
+    else if (scene.colliders.empty())
+        graph.skip("sums of contact forces by particle", "no colliders in the scene");
     if (!contents.counts && !options.statistics) graph.skip("statistics", "nobody asked for them");
 }
 
@@ -142,6 +147,7 @@ void FrameGraphs::add_hand_out(graph::Graph& graph) {
     if (body_count(*joint_) > 0) solver_.add_body_readback(graph);
     if (options_.normals) solver_.add_readback(graph, Field::normal, "normal");
     if (options_.positions) solver_.add_readback(graph, Field::position, "position");
+    if (options_.fields) solver_.add_field_readback(graph);
     if (!options_.velocities) return;
     solver_.add_readback(graph, Field::displacement, "displacement");
     solver_.add_readback(graph, Field::end_excess, "excess displacement");

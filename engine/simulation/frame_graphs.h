@@ -22,6 +22,7 @@ struct FrameOptions : PictureOptions {
     bool draws_beside = false;  ///< they are drawn by another device (pictures.h)
     bool arrays_later = false;  ///< the receiver takes or computes arrays from what was read back
     bool normals = false;       ///< hand out arrays of normals
+    bool fields = false;        ///< hand out tensions and contact forces
     bool statistics = false;    ///< compute statistics of every frame that is handed out
     bool judges = false;        ///< compute statistics of every frame that is simulated
     Kernels kernels = Kernels::automatic();

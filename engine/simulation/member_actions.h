@@ -19,6 +19,9 @@ std::size_t load_count(const SimulationModel& model);
 /// Returns the particles that a hand is to hold, `index` counting those of all members; nothing: none.
 std::optional<IndexBox> grasp_of(const EnsembleActions& actions, std::size_t index);
 
+/// Throws ActionError where lists are not as long as `count` members need, or have numbers that are not finite.
+void check_lists(const EnsembleActions& actions, const EnsembleControls& controls, const SimulationModel& model,
+                 std::size_t count);
 /// Throws ActionError where members cannot follow these actions.
 void check_actions(const EnsembleActions& actions, const EnsembleControls& controls, const Members& members);
 /// Throws ActionError where a single member that is at a frame cannot follow them.

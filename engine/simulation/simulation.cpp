@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 
 #include "base/byte_stream.h"
 #include "cloth/cloth_statistics.h"
 #include "cloth/members.h"
 #include "cloth/momentum_causes.h"
-#include "cloth/together.h"
+#include "cloth/spring_tension.h"
 #include "control/motion_watch.h"
 #include "control/passage_watch.h"
 #include "graph/dump.h"
 #include "picture/frame_copy.h"
+#include "picture/framing.h"
 #include "picture/pictures.h"
 #include "simulation/action_player.h"
 #include "simulation/device_parts.h"
@@ -24,61 +24,9 @@
 #include "simulation/member_state.h"
 #include "simulation/scene_checks.h"
 #include "simulation/state_checksum.h"
-#include "solver/copy_bandwidth.h"
 #include "solver/kernel_choice.h"
-#include "vulkan/device_requirements.h"
 
 namespace drape {
-
-Device::Device(const std::string& selector, Validation validation)
-    : parts_(std::make_shared<Parts>(selector, validation)) {}
-
-bool prefers_calling_thread(const SceneDescription& scene) {
-    const std::uint64_t most_particles = cloths_meet(scene) ? 85 * 85 : 72 * 72;
-    const auto is_small = [&](std::size_t cloth, std::size_t count) {
-        const auto [columns, rows] = scene.cloths[cloth].grid;
-        return std::uint64_t{columns} * rows * count <= most_particles;
-    };
-    bool small = true;
-    for (std::size_t cloth = 0; cloth < scene.cloths.size(); ++cloth) small = small && is_small(cloth, 1);
-    for (const std::vector<std::size_t>& list : cloths_alike(scene)) small = small && is_small(list[0], list.size());
-    return small;
-}
-
-Device Device::for_scene(const SceneDescription& scene, bool draws, const std::string& selector,
-                         Validation validation) {
-    constexpr const char* variable = "LP_NUM_THREADS";  // lavapipe reads this when a device is searched for
-    if (std::getenv(variable)) return Device(selector, validation);
-    if (prefers_calling_thread(scene)) setenv(variable, "0", 0);
-    std::optional<Device> device;
-    try {
-        device.emplace(selector, validation);
-    } catch (...) {
-        unsetenv(variable);
-        throw;
-    }
-    unsetenv(variable);
-    if (draws && device_kind(device->info()) == DeviceKind::cpu)
-        device->parts_->drawing = std::make_unique<Parts>(device->info().uuid_text(), validation);
-    return *device;
-}
-
-std::vector<DeviceInfo> Device::list() { return vulkan::Instance({}).devices(); }
-std::string Device::requirements() { return vulkan::device_requirements_document(); }
-const DeviceInfo& Device::info() const { return parts_->device.info(); }
-
-std::uint64_t Device::validation_count() const {
-    const std::uint64_t own = parts_->instance.validation_log().count();
-    return parts_->drawing ? own + parts_->drawing->instance.validation_log().count() : own;
-}
-
-std::uint64_t Device::memory_used() const {
-    const std::uint64_t own = parts_->device.budget().used();
-    return parts_->drawing ? own + parts_->drawing->device.budget().used() : own;
-}
-
-std::uint64_t Device::memory_limit() const { return parts_->device.budget().limit(); }
-double Device::copy_bandwidth() const { return drape::copy_bandwidth(parts_->device, copy_ruler(parts_->device)); }
 
 namespace {
 
@@ -93,6 +41,7 @@ FrameOptions frame_options(const SceneDescription& scene, const SimulationOption
     options.layers = wanted.layers;
     options.view = wanted.view;
     options.positions = wanted.positions;
+    options.fields = wanted.positions && scene.force_fields;
     options.normals = wanted.normals;
     options.velocities = wanted.velocities;
     options.statistics = options.judges = wanted.statistics || wanted.velocities;
@@ -111,13 +60,24 @@ CutListener cut_listener(const std::function<void(const Cut&)>& on_cut) {
     return [on_cut](const CutEvent& event, const CutTopology& topology) {
         const CutCounts& counts = event.counts;
         on_cut({event.frame, event.cloth, counts.springs, counts.triangles, counts.torn, counts.pieces, counts.crumbs,
-                topology.whole_triangles()});
+                topology.whole_triangles(), spring_bits(topology)});
     };
 }
 
 constexpr const char* watch_part = "watch";
 constexpr const char* passages_part = "passages";
 constexpr const char* motion_part = "motion";
+constexpr const char* told_part = "told";
+
+/// Returns the scene with the actions, none so far, that its controls allow. Of pictures it has the camera that it
+/// begins with: one that looked for what was told would jump.
+SceneDescription told_scene(SceneDescription scene, const SimulationOptions& options) {
+    if (!acts(options.controls)) return scene;
+    if (scene.actions) throw Error("controls: the scene has actions of its own, and nothing else can be told");
+    if (options.draw || options.layers) scene.camera = picture_camera(scene, scene.image.size[0], scene.image.size[1]);
+    scene.actions = SceneActions{options.controls, {}};
+    return scene;
+}
 
 template <class Kept>
 std::vector<std::byte> written(Kept& kept) {
@@ -144,13 +104,19 @@ struct Simulation::Parts {
     Parts(const SceneDescription& scene, const SimulationOptions& options, const Device& given)
         : device(given),
           wanted(options),
-          model(able_to_move(checked_scene(scene), controls_of(scene)),
-                controlled({.skip = options.skip, .device = device_kind(given.info())}, controls_of(scene))),
-          player(scene.actions ? std::make_unique<ActionPlayer>(model) : nullptr),
+          model(modelled(told_scene(scene, options), options, given)),
+          player(model.scene.actions ? std::make_unique<ActionPlayer>(model, acts(options.controls)) : nullptr),
           watch(model),
           passages(model),
           motion(model),
           asked(frame_options(scene, options)) {}
+
+    static SimulationModel modelled(const SceneDescription& scene, const SimulationOptions& options,
+                                    const Device& given) {
+        const EnsembleControls controls = controls_of(scene);
+        return SimulationModel(able_to_move(checked_scene(scene), controls),
+                               controlled({.skip = options.skip, .device = device_kind(given.info())}, controls));
+    }
 
     /// Makes the scene the only member of a server, and prepares the pictures if another device draws them.
     void serve_alone() {
@@ -170,6 +136,17 @@ struct Simulation::Parts {
         shown = std::make_unique<SimulationModel>(model);
         shown->scene = player->shown();
         return *shown;
+    }
+
+    /// Has pictures show where things are that were told to go elsewhere: pictures keep the paths that pins and
+    /// colliders had when they were made.
+    void show_what_was_told(const Pictures::Finished& take) {
+        if (!player->is_told() || !(wanted.controls.pins || wanted.controls.colliders)) return;
+        pictures->flush(take);
+        const vulkan::Device& drawing = device.parts_->drawing ? device.parts_->drawing->device : device.parts_->device;
+        pictures.reset();
+        pictures = std::make_unique<Pictures>(drawing, shown_model(), asked);
+        pictures->follow(topologies());
     }
 
     /// Puts into the models what the scene is told for the step to a frame.
@@ -338,7 +315,7 @@ const FinishedFrame& Simulation::frame() const { return parts_->kept.frame(); }
 bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
                      const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop) {
     if (!parts_->is_alone()) throw Error("all simulations that were made together go on together");
-    Pictures* const pictures = parts_->pictures.get();
+    const std::unique_ptr<Pictures>& pictures = parts_->pictures;
     bool giving = false;  // while true, an exception comes from the caller's own function
     const auto give = [&](const FinishedFrame& frame) {
         giving = true;
@@ -351,7 +328,9 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
     } const given{parts_->give};
     given.give = give;
     const auto hand_out = [&](const FinishedFrame& frame) {
-        return pictures ? pictures->draw(frame, give) : finished(frame);
+        if (!pictures) return finished(frame);
+        if (parts_->player) parts_->show_what_was_told(give);
+        pictures->draw(frame, give);
     };
     try {
         parts_->server->ask(0, parts_->judged({last, wanted, finished, stop}, hand_out));
@@ -362,6 +341,16 @@ bool Simulation::run(std::uint32_t last, const std::function<bool(std::uint32_t)
         if (pictures && !giving) pictures->flush(give);
         throw;
     }
+}
+
+void Simulation::act(const EnsembleActions& actions) {
+    if (!acts(parts_->wanted.controls)) throw ActionError("actions: made without controls: ask for them", 0);
+    parts_->player->tell(actions, std::max<std::uint32_t>(1, next_frame()));
+}
+
+SceneActions Simulation::recorded() const {
+    if (!parts_->player) throw Error("nothing is recorded: the scene is told nothing");
+    return *parts_->model.scene.actions;
 }
 
 std::uint32_t Simulation::next_frame() const { return parts_->run().next_frame(); }
@@ -377,6 +366,12 @@ SimulationState Simulation::save() const {
     state[watch_part] = written(parts_->watch);
     state[passages_part] = written(parts_->passages);
     state[motion_part] = written(parts_->motion);
+    if (parts_->player && parts_->player->is_told()) {
+        ByteWriter told;
+        std::vector<FrameActions> steps = parts_->player->steps();
+        transfer_actions(told, steps);
+        state[told_part] = told.take();
+    }
     seal(state);
     return state;
 }
@@ -387,7 +382,16 @@ void Simulation::restore(const SimulationState& state) {
     ByteReader passages = checked_part<PassageWatch>(state, passages_part, parts_->model);
     ByteReader motion = checked_part<MotionWatch>(state, motion_part, parts_->model);
     if (!parts_->is_alone()) throw Error("simulations that were made together cannot be restored");
+    std::vector<FrameActions> steps;
+    const bool is_told = parts_->player && parts_->player->is_told();
+    if (is_told) {
+        const auto part = state.find(told_part);
+        if (part == state.end()) throw Error("the saved state is of a simulation that was told nothing");
+        ByteReader told(part->second);
+        transfer_actions(told, steps);
+    }
     const std::size_t only = 0;
+    if (is_told) parts_->player->take(std::move(steps));
     if (parts_->player) parts_->player->put(0);
     restore_states(*parts_->server, std::span(&only, 1), std::span(&state, 1));
     parts_->watch.transfer(watch);
@@ -403,6 +407,11 @@ const SceneDescription& Simulation::scene() const {
 std::vector<std::uint32_t> Simulation::triangles(std::size_t cloth) const {
     if (!parts_->is_alone()) return CutTopology(parts_->model.cloths[cloth]).whole_triangles();
     return parts_->topologies()[cloth].whole_triangles();
+}
+
+std::vector<std::uint8_t> Simulation::spring_bits(std::size_t cloth) const {
+    if (!parts_->is_alone()) return drape::spring_bits(CutTopology(parts_->model.cloths[cloth]));
+    return drape::spring_bits(parts_->topologies()[cloth]);
 }
 
 SimulationFacts Simulation::facts() const {

@@ -7,6 +7,7 @@
 
 #include "cloth/frame_steps.h"
 #include "cloth/kernel_steps.h"
+#include "cloth/spring_tension.h"
 #include "cloth/step_flops.h"
 #include "cloth/together.h"
 #include "solver/compute_pass.h"
@@ -364,6 +365,16 @@ void ClothSolver::add_normals(graph::Graph& graph) {
 
 void ClothSolver::add_readback(graph::Graph& graph, Field image, std::string_view what) {
     for_each_dispatch([&](ClothState& state) { drape::add_readback(graph, state, state[image], what); });
+}
+
+void ClothSolver::add_field_readback(graph::Graph& graph) {
+    for_each_dispatch([&](ClothState& state) {
+        if (state[Field::contact_impulses].valid())
+            drape::add_readback(graph, state, state[Field::contact_impulses], contact_readback);
+        for (std::size_t direction = 0; direction < spring_directions.size(); ++direction)
+            if (keeps_tension(*state.model, direction))
+                drape::add_readback(graph, state, state[tension_of(direction)], tension_readbacks[direction]);
+    });
 }
 
 void ClothSolver::add_body_readback(graph::Graph& graph) {

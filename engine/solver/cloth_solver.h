@@ -42,6 +42,8 @@ class ClothSolver {
     void add_normals(graph::Graph& graph);
     /// Adds copies to the host of an image of four floats per particle, every cloth's `what` (solver/readback_pass.h).
     void add_readback(graph::Graph& graph, Field image, std::string_view what);
+    /// Adds copies to the host of what colliders gave to particles and of the tensions that the device keeps.
+    void add_field_readback(graph::Graph& graph);
     /// Adds copies to the host of every member's bodies (cloth/bodies.h).
     void add_body_readback(graph::Graph& graph);
     /// Adds the statistics of every cloth (solver/statistics_pass.h).

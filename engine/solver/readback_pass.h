@@ -8,11 +8,16 @@ namespace drape {
 /// What is read back of the state of bodies (ClothSolver::add_body_readback).
 inline constexpr const char* bodies_readback = "body";
 
-/// Name of the host_output buffer that `add_readback` fills for a state (ClothState::name, count): particles x 16
-/// bytes, cloth by cloth.
+/// What is read back of forces (ClothSolver::add_field_readback).
+inline constexpr const char* contact_readback = "contact impulse";
+inline constexpr const char* tension_readbacks[] = {"row tension", "column tension", "down-right tension",
+                                                    "down-left tension"};
+
+/// Name of the host_output buffer that `add_readback` fills for a state (ClothState::name, count): 16 bytes, or 4
+/// of one float, for each particle, cloth by cloth.
 std::string readback_name(const std::string& state, std::string_view what);
 
-/// Copies an image of four floats per particle, the cloths' `what`, into a host_output buffer.
+/// Copies an image of one or four floats per particle, the cloths' `what`, into a host_output buffer.
 void add_readback(graph::Graph& graph, const ClothState& state, graph::Handle image, std::string_view what);
 
 /// Copies a whole image into a host_output buffer called `host_name`, row by row.

@@ -110,6 +110,7 @@ constexpr ConstantRow constant_rows[] = {
     {"has_skins", [](Place p) { return (*p.contact)[ContactField::skins].valid() ? 1u : 0u; }},
     {"impulse_rows", [](Place p) { return impulse_row_count(p.model.scene); }},
     {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
+    {"keeps_contact", [](Place p) { return has(p, Field::contact_impulses) ? 1u : 0u; }},
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
     {"load_depth", [](Place p) { return p.cloth->model->load_depth; }},
     {"local_size_x", group_width},

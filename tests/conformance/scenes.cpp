@@ -146,7 +146,7 @@ SceneDescription slit(SolverMethod method, std::uint32_t substeps) {
 
 /// Of these, sums of impulses do not round as devices divide.
 SceneDescription telling_forces(SceneDescription scene) {
-    scene.forces = scene.worst_forces = true;
+    scene.forces = scene.worst_forces = scene.force_fields = true;
     return scene;
 }
 

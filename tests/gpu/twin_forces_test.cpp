@@ -11,7 +11,7 @@ namespace {
 using test::compare;
 
 SceneDescription telling_forces(SceneDescription scene, SolverMethod method) {
-    scene.forces = scene.worst_forces = true;
+    scene.forces = scene.worst_forces = scene.force_fields = true;
     scene.solver.method = method;
     return scene;
 }

@@ -276,6 +276,76 @@ class Frames(Validated):
         self.assertGreater(during, 2)  # with the GIL held there would be at most one
 
 
+class ForcesAndActions(Validated):
+    def test_fields_of_forces_are_those_of_the_program(self):
+        scene = sheet(forces="fields", colliders={"spheres": [{"center": [0, 0.7, -0.16], "radius": 0.15}]},
+                      wind={"velocity": [0, 0, -6]})
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "scene.json"
+            path.write_text(json.dumps(scene))
+            subprocess.run([PROGRAM, "simulate", path, "-o", folder + "/out", "-q", "--export", "npz,npy"], check=True,
+                           env=VALIDATING)
+            archive = dict(np.load(folder + "/out/positions.npz"))
+            for name in ("tension", "contact_force"):
+                np.testing.assert_array_equal(np.load(f"{folder}/out/{name}.npy"), archive[name])
+        simulation = self.simulate(scene)
+        for frame, step in enumerate(simulation):
+            np.testing.assert_array_equal(step.tensions(), archive["tension"][frame])
+            np.testing.assert_array_equal(step.contact_forces(), archive["contact_force"][frame])
+        self.assertEqual(step.tensions().shape, (7, 9, 4))
+        np.testing.assert_array_equal(step.springs(), archive["springs"])
+        self.assertGreater(np.abs(step.contact_forces()).max(), 0)
+        told = [step.statistics[f"cloth/force_collider_0_sphere_{axis}_n"] for axis in "xyz"]
+        np.testing.assert_allclose(step.contact_forces().sum(axis=(0, 1)), told, rtol=1e-5, atol=1e-6)
+        plain = self.simulate(sheet())
+        plain.step()
+        with self.assertRaisesRegex(ValueError, "\"forces\": \"fields\""):
+            plain.tensions()
+
+    def test_a_simulation_is_told_what_an_ensemble_is(self):
+        scene = sheet(wind={"velocity": [0, 0, 1]})
+        told = self.simulate(scene, controls=["wind", "pins", "holds"], hands=1)
+        one = drape.Ensemble(scene, 1, controls=["wind", "pins", "holds"], hands=1)
+        told.step()
+        corner = told.positions()[-1, 0].astype(float)
+        frames = [told.positions().copy()]
+        for frame in range(1, 6):
+            actions = {"wind": [0.1 * frame, 0, 2], "hands": [corner + [0, 0.002 * frame, 0]]}
+            if frame == 2:
+                actions.update(grasps=[[0, 6]], pins=[[0.01, 0, 0], [0, 0, 0]])
+            if frame == 4:
+                actions.update(holds=[True, False])
+            told.act(**actions)
+            one.step(**{name: np.array(value)[None] for name, value in actions.items()})
+            self.assertTrue(told.step())
+            np.testing.assert_array_equal(told.positions(), one.positions()[0])
+            frames.append(told.positions().copy())
+        self.assertAlmostEqual(told.statistics["given_wind_x_m_s"], 0.5)
+        with tempfile.TemporaryDirectory() as folder:
+            told.save_scene(folder + "/told.json")
+            replayed = drape.load(folder + "/told.json")
+        for step, positions in zip(self.simulate(replayed), frames):
+            np.testing.assert_array_equal(step.positions(), positions)
+
+    def test_what_cannot_be_told_changes_nothing(self):
+        told = self.simulate(sheet(), controls=["wind"], hands=1)
+        told.step()
+        for actions, why in (({"wind": [0, 0, float("nan")]}, "wind: number 2 is nan"),
+                             ({"wind": [[0, 0, 0]]}, r"wind: expected an array \[3\]"),
+                             ({"hands": [[0, 0]]}, r"hands: expected an array \[1, 3 or 6\]"),
+                             ({"grasps": [[0, 0]]}, "hand 0 is nowhere yet"),
+                             ({"pins": [[0, 0, 0], [0, 0, 0]]}, "made without control of pins")):
+            with self.assertRaisesRegex(drape.ActionError, why):
+                told.act(**actions)
+        plain = self.simulate(sheet())
+        with self.assertRaisesRegex(drape.ActionError, "made without controls"):
+            plain.act()
+        for each in (told, plain):
+            while each.step():
+                pass
+        np.testing.assert_array_equal(told.frame, plain.frame)
+
+
 class Ensembles(Validated):
     def ensemble(self, scene, members, **options):
         self.simulations.append(drape.Ensemble(scene, members, validate=True, **options))

@@ -103,19 +103,19 @@ std::vector<Body> bodies() {
     const std::pair<const char*, Triangles> shapes[] = {{"ball", test::ball_mesh(0.2, 32)},
                                                         {"ring", test::torus_mesh(0.2, 0.08, 32)},
                                                         {"rod", test::capsule_mesh(0.1, 0.12, 24)}};
-    for (const auto& [shape, whole] : shapes) {
-        const auto add = [&, shape = shape, &whole = whole](const char* kind, Triangles faulty) -> Body& {
-            return all.emplace_back(Body{std::string(shape) + " " + kind, whole, std::move(faulty)});
+    for (const auto& [shape, sound] : shapes) {
+        const auto add = [&, shape = shape, &sound = sound](const char* kind, Triangles faulty) -> Body& {
+            return all.emplace_back(Body{std::string(shape) + " " + kind, sound, std::move(faulty)});
         };
         double low = 0;
-        for (const Vec3& vertex : whole.vertices) low = std::min(low, vertex[1]);
-        add("open below", open_below(whole, 0.7 * low)).solid = Solid::filled;
-        add("with holes", with_holes(whole, random));
-        add("doubled", doubled(whole));
-        add("with mixed normals", with_mixed_normals(whole, random));
-        add("with loose parts", with_loose_parts(whole));
-        add("gaping", gaping(whole, random));
-        Triangles far = whole;
+        for (const Vec3& vertex : sound.vertices) low = std::min(low, vertex[1]);
+        add("open below", open_below(sound, 0.7 * low)).solid = Solid::filled;
+        add("with holes", with_holes(sound, random));
+        add("doubled", doubled(sound));
+        add("with mixed normals", with_mixed_normals(sound, random));
+        add("with loose parts", with_loose_parts(sound));
+        add("gaping", gaping(sound, random));
+        Triangles far = sound;
         const Vec3 away{12000, -3000, 7000};
         test::shift(far, away);
         Body& body = add("far away", std::move(far));

@@ -73,14 +73,16 @@ TEST(ActionRules, TellWhatCannotBeTold) {
                                   "to pull, got none"}));
 }
 
-TEST(ActionRules, ForcesAreTrueFalseOrWorst) {
+TEST(ActionRules, ForcesAreTrueFalseWorstOrFields) {
     const auto read = [](const std::string& forces) {
         return read_scene_text(R"({"cloths": [{}], "forces": )" + forces + "}", "s");
     };
     EXPECT_TRUE(read("\"worst\"").scene->worst_forces && read("\"worst\"").scene->forces);
     EXPECT_TRUE(read("true").scene->forces && !read("true").scene->worst_forces);
     EXPECT_FALSE(read("false").scene->forces);
-    EXPECT_EQ(read("\"mean\"").errors.at(0).message, "expected true, false or \"worst\", got \"mean\"");
+    EXPECT_FALSE(read("\"worst\"").scene->force_fields);
+    EXPECT_TRUE(read("\"fields\"").scene->force_fields && read("\"fields\"").scene->worst_forces);
+    EXPECT_EQ(read("\"mean\"").errors.at(0).message, "expected true, false, \"worst\" or \"fields\", got \"mean\"");
 }
 
 }  // namespace

@@ -188,6 +188,8 @@ void run_collide(const TwinPlace& where) {
         if (!touched) continue;
         if (impulses.are_wanted())
             givers.book(impulses, &inputs.colliders[first], state[Field::position][i], displacement);
+        if (!state[Field::contact_impulses].empty())
+            givers.keep(state[Field::contact_impulses][i], state[Field::position][i].w);
         const bool is_led = way_out.x != 0.0f || way_out.y != 0.0f || way_out.z != 0.0f;
         const vec3 made = is_led ? led_out(where, i, displacement, way_out) : displacement;
         const bool lies = step.supporting && (last.normal.x != 0.0f || last.normal.y != 0.0f || last.normal.z != 0.0f);

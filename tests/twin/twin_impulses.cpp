@@ -54,6 +54,7 @@ void run_momentum(const TwinPlace& where) {
     const std::vector<float> masses = mass_shares(model);
     const std::vector<uint> pins = pin_numbers(scene, static_cast<std::size_t>(&model - scene.cloths.data()));
     TwinImpulses impulses(state);
+    if (push.sign < 0) std::ranges::fill(state[Field::contact_impulses], vec4{});
     for (std::size_t i = 0; i < masses.size(); ++i) {
         const vec4 position = state[Field::position][i];
         const vec3 momentum =

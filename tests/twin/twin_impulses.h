@@ -36,6 +36,7 @@ class TwinImpulses {
 class TwinGivers {
   public:
     void take(int number, glsl::vec3 given) {
+        by_all_ = glsl::moved_position(by_all_, given);
         for (std::size_t k = 0; k < most; ++k) {
             if (numbers_[k] != number && numbers_[k] >= 0 && k + 1 < most) continue;
             if (numbers_[k] < 0) numbers_[k] = number;
@@ -60,10 +61,18 @@ class TwinGivers {
         }
     }
 
+    /// Adds what all of them gave to a particle to what they gave it in the frame.
+    void keep(glsl::vec4& kept, float inverse_mass) const {
+        const glsl::vec3 given = glsl::impulse_of_motion(by_all_, glsl::reciprocal(inverse_mass));
+        const glsl::vec3 sum = glsl::moved_position({kept.x, kept.y, kept.z}, given);
+        kept = {sum.x, sum.y, sum.z, 0};
+    }
+
   private:
     static constexpr std::size_t most = 3;
     std::array<int, most> numbers_{-1, -1, -1};
     std::array<glsl::vec3, most> motions_{};
+    glsl::vec3 by_all_{};
 };
 
 }  // namespace drape

@@ -5,24 +5,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "drape/ensemble.h"
-#include "module.h"
+#include "actions.h"
 #include "run/run_statistics.h"
 
 namespace drape::python {
 
 namespace {
-
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Choices = py::array_t<bool, py::array::c_style | py::array::forcecast>;
-using Places = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-
-/// What step() is given.
-struct Told {
-    std::optional<Numbers> wind, pins, colliders, gravity, hands, loads, body_forces, body_impulses, body_velocities;
-    std::optional<Choices> holds, body_sets;
-    std::optional<Places> grasps;
-};
 
 /// Returns the members' scenes: so many of the scene, or what each entry makes of it.
 std::vector<Scene> scenes_of(const Scene& scene, const py::object& members) {
@@ -45,25 +33,6 @@ std::vector<Scene> scenes_of(const Scene& scene, const py::object& members) {
     return scenes;
 }
 
-EnsembleControls controls_of(const std::vector<std::string>& names, const SceneDescription& scene,
-                             const py::object& hands) {
-    EnsembleControls controls;
-    if (py::isinstance<py::int_>(hands))
-        controls.hands.assign(py::cast<std::size_t>(hands), 0);
-    else
-        for (const py::handle cloth : py::iter(hands))
-            controls.hands.push_back(cloth_number(scene, py::reinterpret_borrow<py::object>(cloth)));
-    for (const std::string& name : names) {
-        const auto* const found =
-            std::ranges::find(control_spellings, name, [](const auto& each) { return each.name; });
-        if (found == std::end(control_spellings))
-            throw py::value_error("controls are wind, pins, colliders, holds, gravity, loads and bodies, not '" + name +
-                                  "'");
-        controls.*found->value = true;
-    }
-    return controls;
-}
-
 class PyEnsemble {
   public:
     PyEnsemble(std::vector<Scene> scenes, const EnsembleOptions& options, const std::string& device, bool validate)
@@ -79,33 +48,9 @@ class PyEnsemble {
     const Device& device() const { return *device_; }
 
     void step(const Told& told) {
-        const SceneDescription& scene = ensemble_->scene(0);
-        std::size_t pin_count = 0, load_count = 0;
-        for (const Cloth& cloth : scene.cloths) {
-            pin_count += cloth.pins.size();
-            load_count += cloth.loads.size();
-        }
-        std::vector<double> wind, pins, colliders, gravity, hands, loads;
-        if (told.wind) wind = numbers(*told.wind, "wind", {3}, 0);
-        if (told.gravity) gravity = numbers(*told.gravity, "gravity", {3}, 0);
-        if (told.pins) pins = numbers(*told.pins, "pins", {pin_count}, 6);
-        if (told.colliders) colliders = numbers(*told.colliders, "colliders", {scene.colliders.size()}, 6);
-        if (told.hands) hands = numbers(*told.hands, "hands", {hand_count_}, 6);
-        if (told.loads) loads = numbers(*told.loads, "loads", {load_count}, 3);
-        std::vector<std::uint8_t> holds;
-        const std::size_t body_count = ensemble_->bodies(0).size();
-        std::vector<double> forces, impulses, velocities;
-        if (told.body_forces) forces = numbers(*told.body_forces, "body_forces", {body_count}, 6);
-        if (told.body_impulses) impulses = numbers(*told.body_impulses, "body_impulses", {body_count}, 6);
-        if (told.body_velocities) velocities = numbers(*told.body_velocities, "body_velocities", {body_count}, 6);
-        std::vector<std::uint8_t> sets;
-        if (told.body_sets) sets = choices(*told.body_sets, "body_sets", body_count);
-        if (told.holds) holds = choices(*told.holds, "holds", pin_count);
-        std::vector<std::int32_t> grasps;
-        if (told.grasps) grasps = places(*told.grasps);
+        const ToldActions actions(told, {ensemble_->size(), ensemble_->scene(0), hand_count_});
         const py::gil_scoped_release released;
-        ensemble_->step(
-            {wind, pins, colliders, holds, gravity, hands, grasps, loads, forces, impulses, velocities, sets});
+        ensemble_->step(actions.actions());
     }
 
     /// Returns the scene of what a member was told so far.
@@ -113,52 +58,6 @@ class PyEnsemble {
         const Scene& scene = scenes_.at(member);
         return scene_with_actions(scene.source, ensemble_->recorded(member), ensemble_->frame(member), scene.overrides,
                                   scene.folder);
-    }
-
-    std::vector<std::uint8_t> choices(const Choices& array, const char* name, std::size_t count) const {
-        if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(0)) != ensemble_->size() ||
-            static_cast<std::size_t>(array.shape(1)) != count)
-            throw ActionError(fmt::format("actions: {}: expected an array [{}, {}]", name, ensemble_->size(), count),
-                              0);
-        return {array.data(), array.data() + array.size()};
-    }
-
-    /// Returns first column, first row, last column, last row, which are the same in entries of 2.
-    std::vector<std::int32_t> places(const Places& array) const {
-        const std::size_t last = array.ndim() == 3 ? static_cast<std::size_t>(array.shape(2)) : 0;
-        if ((last != 2 && last != 4) || static_cast<std::size_t>(array.shape(0)) != ensemble_->size() ||
-            static_cast<std::size_t>(array.shape(1)) != hand_count_)
-            throw ActionError(
-                fmt::format("actions: grasps: expected an array [{}, {}, 2 or 4]", ensemble_->size(), hand_count_), 0);
-        std::vector<std::int32_t> all;
-        for (std::size_t k = 0; k < ensemble_->size() * hand_count_; ++k)
-            for (std::size_t i = 0; i < 4; ++i) {
-                const std::int64_t number = array.data()[last * k + i % last];
-                all.push_back(number == static_cast<std::int32_t>(number) ? static_cast<std::int32_t>(number)
-                                                                          : INT32_MAX);
-            }
-        return all;
-    }
-
-    /// Returns [member, ...] numbers; with `key`, entries of 3 get no turns: the last 3 are 0.
-    std::vector<double> numbers(const Numbers& array, const char* name, const std::vector<std::size_t>& shape,
-                                std::size_t key) const {
-        const auto extent = [&](py::ssize_t axis) { return static_cast<std::size_t>(array.shape(axis)); };
-        const bool has_key = key > 0;
-        const std::size_t last = array.ndim() > 0 ? extent(array.ndim() - 1) : 0;
-        if (array.ndim() != (has_key ? 3 : 2) || extent(0) != ensemble_->size() || extent(1) != shape[0] ||
-            (has_key && last != 3 && last != key))
-            throw ActionError(
-                fmt::format("actions: {}: expected an array [{}, {}{}]", name, ensemble_->size(), shape[0],
-                            !has_key   ? ""
-                            : key == 3 ? ", 3"
-                                       : ", 3 or 6"),
-                0);
-        if (!has_key || last == key) return {array.data(), array.data() + array.size()};
-        std::vector<double> all(ensemble_->size() * shape[0] * key);
-        for (std::size_t k = 0; k < ensemble_->size() * shape[0]; ++k)
-            std::copy_n(array.data() + 3 * k, 3, all.begin() + static_cast<std::ptrdiff_t>(key * k));
-        return all;
     }
 
   private:
@@ -304,35 +203,6 @@ void define_ensemble(py::module_& module) {
             "hands take particles of the first cloth, or the cloth of each. record: whether save_scene() can write "
             "what members "
             "were told. All begin at frame 0.")
-        .def(
-            "step",
-            [](PyEnsemble& self, const std::optional<Numbers>& wind, const std::optional<Numbers>& pins,
-               const std::optional<Numbers>& colliders, const std::optional<Choices>& holds,
-               const std::optional<Numbers>& gravity, const std::optional<Numbers>& hands,
-               const std::optional<Places>& grasps, const std::optional<Numbers>& loads,
-               const std::optional<Numbers>& body_forces, const std::optional<Numbers>& body_impulses,
-               const std::optional<Numbers>& body_velocities, const std::optional<Choices>& body_sets) {
-                self.step({wind, pins, colliders, gravity, hands, loads, body_forces, body_impulses, body_velocities,
-                           holds, body_sets, grasps});
-            },
-            py::kw_only(), py::arg("wind") = py::none(), py::arg("pins") = py::none(),
-            py::arg("colliders") = py::none(), py::arg("holds") = py::none(), py::arg("gravity") = py::none(),
-            py::arg("hands") = py::none(), py::arg("grasps") = py::none(), py::arg("loads") = py::none(),
-            py::arg("body_forces") = py::none(), py::arg("body_impulses") = py::none(),
-            py::arg("body_velocities") = py::none(), py::arg("body_sets") = py::none(),
-            "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
-            "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
-            "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
-            "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
-            "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
-            "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
-            "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
-            "a load "
-            "that presses Pa, 0, 0, during the step. body_forces: [member, body, 3 or 6]: N and N m on colliders with "
-            "a "
-            "mass, during the step. body_impulses: likewise N s and N m s at its start. body_velocities: m/s and rad/s "
-            "at its start, of those bodies that body_sets, bool [member, body], names, or of all. "
-            "What is not given stays as it is. Raises ActionError, and then no member went on.")
         .def("__len__", [](const PyEnsemble& self) { return self.ensemble().size(); })
         .def_property_readonly(
             "frames",
@@ -378,6 +248,21 @@ void define_ensemble(py::module_& module) {
             return body_arrays(all, true);
         },
         "A dict of arrays [member, body, ...] of the colliders with a mass, as Simulation.bodies().");
+    define_told(
+        ensemble, "step", [](PyEnsemble& self, const Told& told) { self.step(told); },
+        "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
+        "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
+        "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
+        "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
+        "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
+        "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
+        "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
+        "a load "
+        "that presses Pa, 0, 0, during the step. body_forces: [member, body, 3 or 6]: N and N m on colliders with "
+        "a "
+        "mass, during the step. body_impulses: likewise N s and N m s at its start. body_velocities: m/s and rad/s "
+        "at its start, of those bodies that body_sets, bool [member, body], names, or of all. "
+        "What is not given stays as it is. Raises ActionError, and then no member went on.");
     define_member_states(ensemble);
     define_member_arrays(ensemble);
 }

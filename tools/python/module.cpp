@@ -7,9 +7,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "actions.h"
 #include "drape/ensemble.h"
 #include "output/frame_writer.h"
-#include "run/failure.h"
 #include "run/run_statistics.h"
 
 namespace drape::python {
@@ -141,11 +141,13 @@ struct Options {
     std::string view;
     std::optional<double> view_range;
     std::optional<std::array<std::uint32_t, 2>> size;
+    EnsembleControls controls;
 };
 
 class PySimulation {
   public:
-    PySimulation(const Scene& scene, const Options& options) : draws_(options.draw), has_normals_(options.normals) {
+    PySimulation(const Scene& scene, const Options& options)
+        : draws_(options.draw), has_normals_(options.normals), hands_(options.controls.hands.size()), source_(scene) {
         SceneDescription description = scene.description;
         if (options.size) description.image.size = *options.size;
         SimulationOptions wanted;
@@ -155,6 +157,7 @@ class PySimulation {
         wanted.velocities = true;
         wanted.normals = options.normals;
         wanted.keep_promises = !options.keep_failed;
+        wanted.controls = options.controls;
         const py::gil_scoped_release released;
         device_.emplace(options.device, validation_if(options.validate));
         simulation_.emplace(description, wanted, *device_);
@@ -165,6 +168,14 @@ class PySimulation {
         const bool stepped = simulation_->step();
         has_frame_ = has_frame_ || stepped;
         return stepped;
+    }
+
+    void act(const Told& told) { simulation_->act(ToldActions(told, {std::nullopt, scene(), hands_}).actions()); }
+    /// Returns the scene of what it was told so far.
+    std::string told_scene() const {
+        const std::uint32_t next = simulation_->next_frame();
+        return scene_with_actions(source_.source, simulation_->recorded(), next > 0 ? next - 1 : 0, source_.overrides,
+                                  source_.folder);
     }
 
     const FinishedFrame& frame() const {
@@ -182,21 +193,27 @@ class PySimulation {
 
   private:
     bool draws_, has_normals_, has_frame_ = false;
+    std::size_t hands_;
+    Scene source_;
     std::optional<Device> device_;
     std::optional<Simulation> simulation_;
 };
 
 using Arrays = std::vector<std::span<const float>>;
 
-/// Returns x y z of each particle, float32 [row, column, 3].
-py::array vectors(const py::object& owner, const py::object& which, Arrays FinishedFrame::*what) {
+/// Returns the first numbers of each particle's four, float32 [row, column, width].
+py::array vectors(const py::object& owner, const py::object& which, Arrays FinishedFrame::*what, py::ssize_t width) {
     const auto& self = py::cast<const PySimulation&>(owner);
+    const bool is_field = what == &FinishedFrame::tensions || what == &FinishedFrame::contact_forces;
+    if (is_field && !self.scene().force_fields)
+        throw py::value_error("no tensions and contact forces: the scene does not say \"forces\": \"fields\"");
     if (what == &FinishedFrame::normals && !self.has_normals())
         throw py::value_error("no normals: the simulation was made without normals=True");
     const std::size_t cloth = self.cloth(which);
     const auto& [columns, rows] = self.scene().cloths[cloth].grid;
     const auto pitch = static_cast<py::ssize_t>(4 * sizeof(float));
-    return view((self.frame().*what)[cloth].data(), {rows, columns, 3}, {columns * pitch, pitch, sizeof(float)}, owner);
+    return view((self.frame().*what)[cloth].data(), {rows, columns, width}, {columns * pitch, pitch, sizeof(float)},
+                owner);
 }
 
 py::array picture(const py::object& owner) {
@@ -235,6 +252,14 @@ py::array_t<std::int32_t> faces(const PySimulation& self, const py::object& whic
     return array;
 }
 
+py::array_t<std::uint8_t> springs(const PySimulation& self, const py::object& which) {
+    const std::size_t cloth = self.cloth(which);
+    const auto& [columns, rows] = self.scene().cloths[cloth].grid;
+    py::array_t<std::uint8_t> array({rows, columns});
+    std::ranges::copy(self.simulation().spring_bits(cloth), array.mutable_data());
+    return array;
+}
+
 py::array_t<float> uv(const PySimulation& self, const py::object& which) {
     const Cloth& cloth = self.scene().cloths[self.cloth(which)];
     WrittenCloth written;
@@ -245,68 +270,6 @@ py::array_t<float> uv(const PySimulation& self, const py::object& which) {
     for (std::size_t particle = 0; particle < std::size_t{cloth.grid[0]} * cloth.grid[1]; ++particle, to += 2)
         std::ranges::copy(written.uv(particle), to);
     return array;
-}
-
-/// Makes drape.Error and one class below it for each way to fail, with `exit_code` as the command line has it.
-class Errors {
-  public:
-    explicit Errors(py::module_& module) {
-        base_ = make(module, "Error", PyExc_RuntimeError, ExitCode::usage,
-                     "The library was asked for what it cannot do; exit_code is the command line's.");
-        action_ = make(module, "ActionError", base_.ptr(), ExitCode::usage,
-                       "Actions that an ensemble cannot take; `member` says whose.");
-        for (const auto& [code, name, help] : kinds) classes_[code] = make(module, name, base_.ptr(), code, help);
-    }
-    void raise(const Failure& failure) const {
-        const auto found = classes_.find(failure.code);
-        PyErr_SetString((found == classes_.end() ? base_ : found->second).ptr(), failure.text.c_str());
-    }
-
-    void raise(const ActionError& error) const {
-        const py::object raised = action_(error.what());
-        raised.attr("member") = error.member();
-        PyErr_SetObject(action_.ptr(), raised.ptr());
-    }
-
-  private:
-    struct Kind {
-        ExitCode code;
-        const char *name, *help;
-    };
-    static constexpr Kind kinds[] = {
-        {ExitCode::io, "FileError", "A file could not be read."},
-        {ExitCode::scene, "SceneError", "A scene is wrong: all of its errors, each with its place."},
-        {ExitCode::device, "DeviceError", "No usable device, a failing Vulkan call, or not enough memory."},
-        {ExitCode::diverged, "DivergedError", "A frame is not finite, or not plausible."},
-        {ExitCode::tolerance, "ToleranceError", "A frame misses the scene's tolerance, or what method auto keeps."}};
-
-    static py::object make(py::module_& module, const char* name, PyObject* base, ExitCode code, const char* help) {
-        py::dict members;
-        members["exit_code"] = static_cast<int>(code);
-        members["__doc__"] = help;
-        const std::string full = std::string("drape.") + name;
-        auto type = py::reinterpret_steal<py::object>(PyErr_NewException(full.c_str(), base, members.ptr()));
-        module.attr(name) = type;
-        return type;
-    }
-
-    py::object base_, action_;
-    std::map<ExitCode, py::object> classes_;
-};
-
-void translate_errors(py::module_& module) {
-    static const Errors* const errors = new Errors(module);  // lives as long as the interpreter's modules do
-    py::register_exception_translator([](std::exception_ptr raised) {
-        try {
-            std::rethrow_exception(std::move(raised));
-        } catch (const ActionError& error) {
-            errors->raise(error);
-        } catch (const Error& error) {
-            Failure failure = current_failure();
-            if (failure.code == ExitCode::internal) failure.text = error.what();  // it tells what was asked wrongly
-            errors->raise(failure);
-        }
-    });
 }
 
 void define_scene(py::module_& module) {
@@ -336,24 +299,41 @@ void define_scene(py::module_& module) {
 std::unique_ptr<PySimulation> make_simulation(const py::object& scene, std::string device, bool draw, std::string shown,
                                               std::optional<double> view_range,
                                               std::optional<std::array<std::uint32_t, 2>> size, bool layers,
-                                              bool normals, bool validate, bool keep_failed) {
-    const Options options{std::move(device), draw,       layers, normals, validate, keep_failed,
-                          std::move(shown),  view_range, size};
-    return std::make_unique<PySimulation>(any_scene(scene), options);
+                                              bool normals, bool validate, bool keep_failed,
+                                              const std::vector<std::string>& controls, const py::object& hands) {
+    const Scene made = any_scene(scene);
+    const Options options{std::move(device),
+                          draw,
+                          layers,
+                          normals,
+                          validate,
+                          keep_failed,
+                          std::move(shown),
+                          view_range,
+                          size,
+                          controls_of(controls, made.description, hands)};
+    return std::make_unique<PySimulation>(made, options);
 }
 
 void define_arrays(py::class_<PySimulation>& simulation) {
     const auto which = py::arg("cloth") = 0;
-    const auto add = [&](const char* name, Arrays FinishedFrame::*what, const char* help) {
+    const auto add = [&](const char* name, Arrays FinishedFrame::*what, const char* help, py::ssize_t width = 3) {
         simulation.def(
-            name, [what](const py::object& self, const py::object& cloth) { return vectors(self, cloth, what); }, which,
-            help);
+            name, [=](const py::object& self, const py::object& cloth) { return vectors(self, cloth, what, width); },
+            which, help);
     };
     add("positions", &FinishedFrame::positions,
         "float32 [row, column, 3], m. No copy: read-only, and the next step() changes what is in it. It keeps the "
         "simulation alive. cloth: number or name.");
     add("velocities", &FinishedFrame::velocities, "float32 [row, column, 3], m/s, at the frame's end; as positions.");
     add("normals", &FinishedFrame::normals, "float32 [row, column, 3], unit, of the front; as positions.");
+    add("tensions", &FinishedFrame::tensions,
+        "float32 [row, column, 4], N: what the springs to the right (column + 1), down (row + 1), down right and down "
+        "left bear, pulled above 0; needs \"forces\": \"fields\" in the scene; as positions.",
+        4);
+    add("contact_forces", &FinishedFrame::contact_forces,
+        "float32 [row, column, 3], N: the mean force of all colliders in the frame; needs \"forces\": \"fields\"; as "
+        "positions.");
     simulation
         .def("picture", &picture,
              "uint8 [height, width, 4], sRGB and 255, rows from the top; needs draw=True. No copy, as positions.")
@@ -371,22 +351,28 @@ void define_arrays(py::class_<PySimulation>& simulation) {
             "potential_energy (J). Copies.")
         .def("faces", &faces, which,
              "int32 [face, 3]: particles (row * columns + column) of the triangles that no cut has split so far.")
+        .def(
+            "springs", &springs, which,
+            "uint8 [row, column]: which springs are there, uncut and untorn: bits 1, 2, 4 and 8 for those of tensions.")
         .def("uv", &uv, which, "float32 [row, column, 2]: texture coordinates.");
 }
 
 void define_simulation(py::module_& module) {
     py::class_<PySimulation> simulation(module, "Simulation", "A scene on a device, frame by frame.");
     simulation
-        .def(py::init(&make_simulation), py::arg("scene"), py::kw_only(), py::arg("device") = "",
-             py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
-             py::arg("size") = py::none(), py::arg("layers") = false, py::arg("normals") = false,
-             py::arg("validate") = false, py::arg("keep_failed") = false,
-             "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is what the "
-             "environment variable DRAPE_DEVICE says, else the best there is. draw: pictures, of size (width, height), "
-             "showing view (shaded, stretch, warp, weft, wire, normals; view_range: strain at the end of the colours). "
-             "layers: layers() of that size are wanted. normals: normals() are wanted. validate: Vulkan's validation "
-             "layer, messages on stderr. "
-             "keep_failed: go on after a frame that is no result.")
+        .def(
+            py::init(&make_simulation), py::arg("scene"), py::kw_only(), py::arg("device") = "",
+            py::arg("draw") = false, py::arg("view") = "shaded", py::arg("view_range") = py::none(),
+            py::arg("size") = py::none(), py::arg("layers") = false, py::arg("normals") = false,
+            py::arg("validate") = false, py::arg("keep_failed") = false,
+            py::arg("controls") = std::vector<std::string>(), py::arg("hands") = 0,
+            "scene: a Scene, a path or a dict. device: index, part of the name, UUID or 'cpu'; '' is what the "
+            "environment variable DRAPE_DEVICE says, else the best there is. draw: pictures, of size (width, height), "
+            "showing view (shaded, stretch, warp, weft, wire, normals; view_range: strain at the end of the colours). "
+            "layers: layers() of that size are wanted. normals: normals() are wanted. validate: Vulkan's validation "
+            "layer, messages on stderr. "
+            "keep_failed: go on after a frame that is no result. controls, hands: what act() may tell, as Ensemble has "
+            "them.")
         .def("step", &PySimulation::step,
              "Computes the next frame, the first time frame 0, the start; False after the last. Other Python threads "
              "run meanwhile.")
@@ -424,6 +410,17 @@ void define_simulation(py::module_& module) {
             "save", [](const PySimulation& self) { return state_dict(self.simulation().save()); },
             "What the next frames depend on: a dict of bytes, for restore() of a simulation of the same scene.")
         .def("restore", [](PySimulation& self, const py::dict& state) { self.simulation().restore(state_of(state)); });
+    simulation.def(
+        "save_scene",
+        [](const PySimulation& self, const py::object& path) {
+            py::module_::import("pathlib").attr("Path")(path).attr("write_text")(self.told_scene());
+        },
+        py::arg("path"), "Writes a scene file that is told what act() told, and so has the same bits.");
+    define_told(
+        simulation, "act", [](PySimulation& self, const Told& told) { self.act(told); },
+        "Tells what holds from the next frame on (from frame 1, if there was no step yet); arrays as those of "
+        "Ensemble.step, without the axis of members: wind [3], pins [pin, 3 or 6] and so on. Needs controls or hands. "
+        "What is not given stays as it is. Raises ActionError, and then nothing has changed.");
     define_arrays(simulation);
 }
 

@@ -51,5 +51,7 @@ SimulationState state_of(const py::dict& parts);
 
 /// Defines Ensemble.
 void define_ensemble(py::module_& module);
+/// Defines the exceptions.
+void translate_errors(py::module_& module);
 
 }  // namespace drape::python

@@ -97,8 +97,14 @@ struct FinishedFrame {
                                                      ///< its inverse mass over an inner particle's; 0: held
     std::vector<std::span<const float>> velocities;  ///< per cloth, when wanted: x y z (m/s) and 0
     std::vector<std::span<const float>> normals;     ///< per cloth, when wanted: unit x y z of the front, and 0
-    std::vector<ClothStatistics> statistics;         ///< per cloth, when wanted
-    std::vector<BodyState> bodies;                   ///< of every body that has a mass
+    /// Per cloth, where the scene has `force_fields` and positions are wanted: what the four springs bear that a
+    /// particle is the first of, N, pulled above 0: to the right (column + 1), down (row + 1), down right and down
+    /// left; 0 where there is none, NaN where the method keeps none (rigid springs of `relax`).
+    std::vector<std::span<const float>> tensions;
+    /// Likewise: the mean force of all colliders on the particle in the frame, N, x y z and 0.
+    std::vector<std::span<const float>> contact_forces;
+    std::vector<ClothStatistics> statistics;  ///< per cloth, when wanted
+    std::vector<BodyState> bodies;            ///< of every body that has a mass
     FrameEffort effort;
     std::optional<FrameFailure> failure;  ///< set only where statistics are wanted
     std::vector<StageTime> timings;       ///< empty where the device has no timestamps
@@ -113,6 +119,7 @@ struct Cut {
     std::uint32_t pieces = 0;                  ///< that there are now, crumbs among them
     std::uint32_t crumbs = 0;                  ///< pieces that now have less than four triangles of the grid
     std::vector<std::uint32_t> faces;          ///< three particles for each triangle that is drawn whole
+    std::vector<std::uint8_t> spring_bits;     ///< Simulation::spring_bits now
 };
 
 }  // namespace drape

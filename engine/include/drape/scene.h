@@ -429,6 +429,7 @@ struct SceneDescription {
     SolverSettings solver;
     bool forces = false;                                      ///< statistics tell what pulls and pushes each cloth
     bool worst_forces = false;                                ///< and the largest of each in a substep
+    bool force_fields = false;                                ///< frames tell what each spring and particle bears
     std::optional<SceneActions> actions;                      ///< what it is told on the way
     std::optional<Camera> camera;                             ///< without one picture/framing.h finds one
     std::vector<DirectionalLight> lights = default_lights();  ///< at most 4

@@ -56,7 +56,8 @@ struct SimulationOptions {
     bool statistics = true;
     /// With statistics: throws Diverged and ToleranceMissed at a frame that failed, wanted or not.
     bool keep_promises = true;
-    bool skip = true;  ///< false: do the work that is skipped because it changes no bit
+    EnsembleControls controls;  ///< what `act` may tell; Error beside actions of the scene's own
+    bool skip = true;           ///< false: do the work that is skipped because it changes no bit
     Timings timings = Timings::stages;
     Kernels kernels = Kernels::automatic();  ///< DeviceError where the device has not what it needs
     std::function<void(const Cut&)> on_cut;
@@ -128,6 +129,8 @@ struct ResourceMemory {
     std::uint64_t bytes = 0;  ///< all copies together
 };
 
+struct EnsembleActions;  // drape/ensemble.h
+
 /// The named parts that a simulation's frames from some frame on depend on, besides its scene
 /// (engine/docs/checkpoint.md).
 using SimulationState = std::map<std::string, std::vector<std::byte>>;
@@ -165,6 +168,13 @@ class Simulation {
     bool run(std::uint32_t last, const std::function<bool(std::uint32_t)>& wanted,
              const std::function<void(const FinishedFrame&)>& finished, const std::function<bool()>& stop = {});
 
+    /// Tells what holds from the next frame on, frame 1 at the earliest: the actions of an ensemble's only member. What
+    /// is told twice for a frame counts as it was told last. Throws ActionError, and nothing has changed.
+    void act(const EnsembleActions& actions);
+    /// Returns what it was told so far, by `act` or by its scene; a scene that has it as its `actions` gives the same
+    /// bits (`scene_with_actions`).
+    SceneActions recorded() const;
+
     /// Returns the frame that the next step or run begins with; 0 in the beginning.
     std::uint32_t next_frame() const;
     /// Returns whether `save` can be called: it cannot while method `auto` has frames that it handed out in part.
@@ -180,6 +190,9 @@ class Simulation {
     const SceneDescription& scene() const;
     /// Returns three particles per triangle, for those that no cut has split so far.
     std::vector<std::uint32_t> triangles(std::size_t cloth) const;
+    /// Returns by particle which of the springs that it is the first of are there now, uncut and untorn: bits 1, 2, 4
+    /// and 8 for those to the right (column + 1), down (row + 1), down right and down left.
+    std::vector<std::uint8_t> spring_bits(std::size_t cloth) const;
     SimulationFacts facts() const;
     /// Returns what was proved of contact between cloths; nothing when no cloth meets itself.
     std::optional<SelfContactReport> self_contact() const;
