@@ -37,6 +37,7 @@ SceneDescription marked_scene() {
     scene.image.background = grey;
     scene.ambient = scene.ambient_ground = {1, 1, 1};
     scene.lights.clear();
+    scene.camera = Camera{.position = {1.3, 2.0, 3.0}, .target = {0, 0.45, 0}, .fov = 36};  // sees all their flights
     scene.cloths[0].placement.origin[1] = 1.0;  // under the markers that fall
     for (std::size_t i = 0; i < markers.size(); ++i) {
         Cloth marker = scene.cloths[0];
