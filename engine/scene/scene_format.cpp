@@ -410,7 +410,8 @@ const Object<SceneDescription> scene{
          "themselves.",
          cloth_count},
         {"seams", &SceneDescription::seams, list<Seam>(seam, "an array of at most 4096 seams", 0, 4096),
-         "What sews the cloths together. Not beside forces and bodies with a mass."},
+         "What sews the cloths together. Not beside forces; beside bodies with a mass only by method relax, "
+         "with sides of as many particles each, and without self_collision."},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
          "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "

@@ -135,12 +135,30 @@ std::optional<SeamFault> fault_of(const SceneDescription& scene, const Seam& sea
                                      made.allowed, made.wide, named_particle(scene, made.where))};
 }
 
-/// Returns what of a scene does not go with seams.
+bool has_bodies(const SceneDescription& scene) {
+    return std::ranges::any_of(scene.colliders, [](const Collider& collider) { return collider.mass.has_value(); });
+}
+
+/// Returns what of a scene does not go with seams. A body gets back what it gives to the mass that a cloth has at a
+/// place: all of it by relaxation, where cloths touch it in turn and none lies between places.
 std::string excluded_by(const SceneDescription& scene) {
-    if (std::ranges::any_of(scene.colliders, [](const Collider& collider) { return collider.mass.has_value(); }))
-        return "expected no seams beside a body with a mass: what a seam evens out, the body would not get back";
     if (scene.forces) return "expected no seams beside forces: what a seam transmits is not told yet";
+    if (!has_bodies(scene)) return {};
+    if (scene.solver.method != SolverMethod::relax)
+        return "expected method relax where seams are beside a body with a mass: by others they do not keep the "
+               "momentum of both";
+    if (std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); }))
+        return "expected no seams beside a body with a mass where cloths have self_collision: all that is sewn touches "
+               "it at once, and it would get back the sum";
     return {};
+}
+
+/// Returns a fault where particles lie between places beside bodies: these touch the places alone.
+std::optional<SeamFault> fault_of_bodies(const SceneDescription& scene, const Sewing& sewing) {
+    if (sewing.between.empty() || !has_bodies(scene)) return std::nullopt;
+    return SeamFault{fmt::format("/{}", sewing.between.front().seam),
+                     "expected sides of as many particles each beside a body with a mass: what lies between others "
+                     "would touch it, and not move"};
 }
 
 bool lets_go_or_moves(const Pin& pin) { return pin.release || !pin.path.keys.empty(); }
@@ -324,7 +342,11 @@ std::vector<SeamFault> seam_faults(const SceneDescription& scene) {
     if (!faults.empty()) return faults;
     Sewer sewer(scene);
     auto fault = sewer.sew();
-    if (!fault) fault = fault_of_pins(scene, std::move(sewer).take());
+    if (!fault) {
+        const Sewing sewing = std::move(sewer).take();
+        fault = fault_of_pins(scene, sewing);
+        if (!fault) fault = fault_of_bodies(scene, sewing);
+    }
     if (fault) faults.push_back(std::move(*fault));
     return faults;
 }

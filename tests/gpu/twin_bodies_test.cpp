@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "support/sewn_scenes.h"
 #include "twin_comparison.h"
 #include "world/mass_properties.h"
 
@@ -70,6 +71,13 @@ TEST_P(TwinBodiesTest, AHeapMeets) {
     light.mass = 0.2 * covering_mass(scene, light.shape);
     scene.colliders.insert(scene.colliders.end(), {box, other, rod, light});
     std::ranges::stable_sort(scene.colliders, {}, &Collider::kind);
+    compare(scene);
+}
+
+TEST_P(TwinBodiesTest, BesideSeams) {
+    if (GetParam() != SolverMethod::relax) GTEST_SKIP() << "refused: seam_rules_test";
+    SceneDescription scene = test::three_panels(GetParam());
+    for (Collider& body : scene.colliders) body.mass = 0.6;
     compare(scene);
 }
 

@@ -88,6 +88,35 @@ TEST_P(BodiesByMethod, AFreeSheetAndABallKeepTheirMomenta) {
     expect_near(plus(turning_of_cloth, run.body().angular_momentum), turning, 1e-4, "angular momentum");
 }
 
+/// A ball flies at the seam of two sheets of unlike density that nothing holds, without gravity.
+TEST_P(BodiesByMethod, SewnSheetsAndABallKeepTheirMomentum) {
+    if (GetParam() != SolverMethod::relax) GTEST_SKIP() << "refused: seam_rules_test";
+    SceneDescription scene = by_method(level_sheet(0, 0), GetParam(), 64);
+    scene.gravity = {0, 0, 0};
+    Cloth other = scene.cloths[0];
+    other.name = "other";
+    other.areal_density *= 3;
+    other.placement.origin[2] += scene.cloths[0].size[1];
+    scene.cloths.push_back(other);
+    scene.seams = {{{scene.cloths[0].name, SeamEdge::bottom}, {"other", SeamEdge::top}}};
+    const Vec3 middle = scene.cloths[1].placement.origin;
+    scene.colliders = {ball({middle[0] + 0.5 * other.size[0] + 0.03, 0.12, middle[2] + 0.02}, 0.1, 0.3)};
+    scene.colliders[0].velocity = {0.3, -1, 0.1};
+    scene.colliders[0].friction = 0.3;
+    Bodies run(scene);
+    const Vec3 momentum = run.body().momentum, turning = run.body().angular_momentum;
+    run.frames(40);
+    const auto [of_one, turning_of_one] = momenta(run, 0);
+    const auto [of_other, turning_of_other] = momenta(run, 1);
+    EXPECT_GT(length(of_one), 0.01 * length(momentum)) << "they meet";
+    EXPECT_GT(length(of_other), 0.01 * length(momentum)) << "they meet";
+    const Vec3 lost = minus(plus(plus(of_one, of_other), run.body().momentum), momentum);
+    const Vec3 turned = minus(plus(plus(turning_of_one, turning_of_other), run.body().angular_momentum), turning);
+    std::printf("[ measured ] momentum %.1e of the ball's, angular momentum %.1e kg m2/s\n",
+                length(lost) / length(momentum), length(turned));
+    EXPECT_LT(length(lost), 1e-4 * length(momentum));
+}
+
 /// A ball falls into a sheet that is held at its corners, and comes to rest there.
 TEST_P(BodiesByMethod, PinsBearABallInASheet) {
     SceneDescription scene = by_method(level_sheet(0, 200), GetParam(), GetParam() == SolverMethod::relax ? 64 : 16);

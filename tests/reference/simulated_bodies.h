@@ -1,6 +1,7 @@
 // A scene that is simulated by the twin and tells what its bodies do.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,10 +35,10 @@ class Bodies : public Simulated {
     std::uint32_t frame_ = 0;
 };
 
-/// The momentum of a run's first cloth and its angular momentum about the origin.
-inline std::pair<Vec3, Vec3> momenta(const Bodies& run) {
-    const TwinCloth& state = run.twin().cloth(0);
-    const ClothModel& cloth = run.model().cloths[0];
+/// The momentum of one of a run's cloths and its angular momentum about the origin.
+inline std::pair<Vec3, Vec3> momenta(const Bodies& run, std::size_t index = 0) {
+    const TwinCloth& state = run.twin().cloth(index);
+    const ClothModel& cloth = run.model().cloths[index];
     const std::vector<float> shares = mass_shares(cloth);
     std::pair<Vec3, Vec3> sums{};
     for (std::size_t i = 0; i < shares.size(); ++i) {

@@ -128,10 +128,24 @@ TEST(SeamRules, TellWhatSeamsDoNotGoWith) {
     using SeamTexts = std::vector<std::string>;
     EXPECT_EQ(with("", "", ""), SeamTexts{});
     EXPECT_EQ(with(R"(, "self_collision": true)", "", ""), SeamTexts{});
-    EXPECT_EQ(
-        with("", "", R"(, "solver": {"method": "line"}, "colliders": {"spheres": [{"mass": 9, "center": [9, 0, 0]}]})"),
-        SeamTexts{"2: /seams: expected no seams beside a body with a mass: what a seam evens out, the body would "
-                  "not get back"});
+    const auto beside_body = [&](const std::string& of_a, const std::string& method) {
+        return with(of_a, "",
+                    R"(, "solver": {"method": ")" + method +
+                        R"("}, "colliders": {"spheres": [{"mass": 9, "center": [9, 0, 0]}]})");
+    };
+    EXPECT_EQ(beside_body("", "relax"), SeamTexts{});
+    for (const char* method : {"line", "explicit", "auto"})
+        EXPECT_EQ(beside_body("", method),
+                  SeamTexts{"2: /seams: expected method relax where seams are beside a body with a mass: by "
+                            "others they do not keep the momentum of both"});
+    EXPECT_EQ(beside_body(R"(, "self_collision": true)", "relax"),
+              SeamTexts{"2: /seams: expected no seams beside a body with a mass where cloths have self_collision: all "
+                        "that is sewn touches it at once, and it would get back the sum"});
+    EXPECT_EQ(errors_of_seams(R"({"cloths": [{"name": "a", "grid": [5, 5]}, {"name": "b", "grid": [8, 5]}],
+"solver": {"method": "relax"}, "colliders": {"spheres": [{"mass": 9, "center": [9, 0, 0]}]},
+"seams": [{"a": {"cloth": "a", "edge": "top"}, "b": {"cloth": "b", "edge": "top"}}]})"),
+              SeamTexts{"3: /seams/0: expected sides of as many particles each beside a body with a mass: what lies "
+                        "between others would touch it, and not move"});
     EXPECT_EQ(with("", "", R"(, "forces": true)"),
               SeamTexts{"2: /seams: expected no seams beside forces: what a seam transmits is not told yet"});
     EXPECT_EQ(
