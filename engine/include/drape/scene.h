@@ -351,7 +351,7 @@ struct Collider {
     Vec3 rotate{0, 0, 0};  ///< degrees, rest pose
     MotionPath path{};
     Vec3 color{0.55, 0.57, 0.60};  ///< sRGB 0..1
-    /// kg: it is a body that gravity, cloth and planes move. It has no path then.
+    /// kg: it is a body that gravity, cloth and what it meets move. It has no path then.
     std::optional<double> mass = {};
     std::optional<Vec3> inertia = {};  ///< principal moments, kg m^2; nothing: of one density
     Vec3 velocity{0, 0, 0};            ///< of a body at the start, m/s
