@@ -146,6 +146,7 @@ const std::vector<SceneBreak> breaks{
     {"t_shirt", "penetration", "no collision", 60, no_collision},
     {"t_shirt", "stretch", "springs a thousand times too soft", 100, springs_a_thousand_times_too_soft},
     {"t_shirt", "supported", "never sewn", to_the_end, never_sewn},
+    {"t_shirt", "uncrossed", "no self-collision", 90, no_self_collision},
     {"torn_banner", "uncrossed", "no self-collision", to_the_end, no_self_collision},
     {"trampoline", "penetration", "no collision", 50, no_collision},
     {"trampoline", "stretch", "springs a thousand times too soft", 50, springs_a_thousand_times_too_soft},
