@@ -55,6 +55,7 @@ std::string text_of(const FrameActions& step) {
     return keys.text();
 }
 
+/// Returns the text of actions before a scene's last frame.
 std::string text_of(const SceneActions& actions, const SceneDescription& scene) {
     std::string controls, hands, steps;
     const auto add = [](std::string& all, const std::string& more) { all += (all.empty() ? "" : ", ") + more; };
@@ -64,7 +65,8 @@ std::string text_of(const SceneActions& actions, const SceneDescription& scene) 
         if (cloth >= scene.cloths.size()) throw Error(fmt::format("a hand takes cloth {}, which is none", cloth));
         add(hands, drape::quoted(scene.cloths[cloth].name));
     }
-    for (const FrameActions& step : actions.steps) steps += (steps.empty() ? "\n" : ",\n") + text_of(step);
+    for (const FrameActions& step : actions.steps)
+        if (step.frame < scene.time.frame_count) steps += (steps.empty() ? "\n" : ",\n") + text_of(step);
     return fmt::format("{{\"controls\": [{}], \"hands\": [{}], \"steps\": [{}]}}", controls, hands, steps);
 }
 

@@ -190,6 +190,7 @@ TEST_F(RecordedActionsTest, AreWrittenExactly) {
     EXPECT_EQ(*read.actions, told);
     EXPECT_TRUE(std::signbit((*read.actions->steps[0].wind)[1]));
     EXPECT_TRUE(std::signbit(read.actions->steps[0].hands[1][0]));
+    EXPECT_TRUE(parse_scene(scene_with_actions(told_text, told, 1)).actions->steps.empty()) << "told, not followed yet";
     SceneDescription without = read;
     without.actions.reset();
     EXPECT_EQ(without, parse_scene(resolved_scene(told_text)));

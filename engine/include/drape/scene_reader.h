@@ -78,8 +78,8 @@ SceneDescription parse_scene(std::string_view text);
 std::string resolved_scene(std::string_view text, std::span<const std::string> overrides = {},
                            const std::string& folder = {});
 
-/// Returns the JSON of a scene as `resolved_scene` does, with these actions and with frames 0 to `last`. Throws
-/// SceneFailure.
+/// Returns the JSON of a scene as `resolved_scene` does, with these actions and with frames 0 to `last`: what was
+/// told for later ones has not been followed yet and is left out. Throws SceneFailure.
 std::string scene_with_actions(std::string_view text, const SceneActions& actions, std::uint32_t last,
                                std::span<const std::string> overrides = {}, const std::string& folder = {});
 
