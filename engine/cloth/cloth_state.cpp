@@ -112,7 +112,7 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Shaders see these fields as images and, where they are `buffered`, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-/// Returns the rows of the table up to the bending at rest.
+/// Returns the rows of the table up to the loads.
 std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -148,6 +148,15 @@ std::vector<FieldRow> motion_rows() {
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::loads, "loads", image, vector, constant, loaded, load_list,
          [](Context c) { return bytes_of_list(c.cloth.loads); }},
+    };
+}
+
+/// Returns the rows of forces, bodies and contact, up to the bending at rest.
+std::vector<FieldRow> contact_rows() {
+    using enum FieldLife;
+    using enum FieldView;
+    static const auto &vector = layout_of<glsl::vec4>(), &integer = layout_of<glsl::uint>();
+    return {
         {Field::impulses, "impulses", image, integer, state, sums_impulses, impulse_table},
         {Field::contact_impulses, "contact impulses", image, vector, state, keeps_contact, particles},
         {Field::bodies, "bodies", image, vector, state, bears_bodies, body_table,
@@ -237,7 +246,8 @@ std::vector<FieldRow> other_rows() {
 std::span<const FieldRow> cloth_fields() {
     static const std::vector<FieldRow> table = [] {
         std::vector<FieldRow> all = motion_rows();
-        for (const FieldRow& row : other_rows()) all.push_back(row);
+        for (const std::vector<FieldRow>& more : {contact_rows(), other_rows()})
+            for (const FieldRow& row : more) all.push_back(row);
         return all;
     }();
     return table;

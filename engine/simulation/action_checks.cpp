@@ -142,7 +142,8 @@ class Hands {
         bool any = false;
         for (std::int32_t row = grasp[1]; inside && row <= grasp[3]; ++row)
             for (std::int32_t column = grasp[0]; column <= grasp[2]; ++column)
-                any = any || model.free_weight[static_cast<std::size_t>(row * columns + column)] > 0;
+                any = any || model.free_weight[model.grid.particle(static_cast<std::uint32_t>(column),
+                                                                   static_cast<std::uint32_t>(row))] > 0;
         if (!any)
             refuse(
                 fmt::format("grasps: {}: columns {} to {} of rows {} to {} are no particles of cloth '{}', which has "
