@@ -21,6 +21,24 @@ std::vector<SceneDescription> drawn(const SceneDescription& scene, std::size_t c
 std::vector<float> of_member(const MemberArray& array, std::size_t member);
 bool same_bytes(std::span<const float> one, std::span<const float> other);
 
+/// Has lists of what an only member is told, of which `actions` is a view.
+struct ToldLists {
+    std::vector<double> wind, gravity, pins, colliders, hands, loads;
+    std::vector<std::uint8_t> holds;
+    std::vector<std::int32_t> grasps;
+
+    EnsembleActions actions() const {
+        return {.wind = wind,
+                .pins = pins,
+                .colliders = colliders,
+                .holds = holds,
+                .gravity = gravity,
+                .hands = hands,
+                .grasps = grasps,
+                .loads = loads};
+    }
+};
+
 /// Steps an ensemble and every member's scene alone, to the same bits. `together`: members share dispatches.
 void expect_each_as_alone(const std::vector<SceneDescription>& scenes, std::uint32_t frames, bool together);
 /// Resets members 1 and 4, and restores member 3, of at least five.

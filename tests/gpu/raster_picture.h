@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/vectors.h"
 #include "gpu_test.h"
 #include "graph/executor.h"
 #include "graph/plan.h"
@@ -24,7 +25,6 @@ inline constexpr std::uint32_t width = 320, height = 240;
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Vec3 operator*(double s, const Vec3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vec3 unit(const Vec3& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
 inline double linear(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }

@@ -35,11 +35,7 @@ SceneDescription told_scene(const std::string& method) {
 }
 
 /// Steps a member of such a scene with everything that can be told, of which each step has a part.
-struct Told {
-    std::vector<double> wind, gravity, pins, colliders, hands, loads;
-    std::vector<std::uint8_t> holds;
-    std::vector<std::int32_t> grasps;
-
+struct Told : test::ToldLists {
     explicit Told(std::uint32_t frame) {
         const double at = 0.1 * frame;
         if (frame == 2 || frame == 5) wind = {3 - at, -0.0, at};
@@ -52,16 +48,6 @@ struct Told {
         if (frame > 1) hands = {0.2, 0.5 + 0.003 * frame, 0.1, 0, 2.0 * frame, 0};
         if (frame == 3) grasps = {5, 9, 6, 11};
         if (frame == 7) grasps = {-1, -1, -1, -1};
-    }
-    EnsembleActions actions() const {
-        return {.wind = wind,
-                .pins = pins,
-                .colliders = colliders,
-                .holds = holds,
-                .gravity = gravity,
-                .hands = hands,
-                .grasps = grasps,
-                .loads = loads};
     }
 };
 

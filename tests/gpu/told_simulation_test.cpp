@@ -32,11 +32,7 @@ SceneDescription scene_to_tell(const char* method) {
 }
 
 /// What is told for a frame.
-struct ToldFor {
-    std::vector<double> wind, gravity, pins, colliders, hands;
-    std::vector<std::uint8_t> holds;
-    std::vector<std::int32_t> grasps;
-
+struct ToldFor : test::ToldLists {
     explicit ToldFor(std::uint32_t frame) {
         if (frame == 2) wind = {1, 0, 0.25};
         if (frame == 3) gravity = {0.5, -9, 0};
@@ -46,15 +42,6 @@ struct ToldFor {
         if (frame > 1) hands = {0.2, 0.5 + 0.003 * frame, 0.1, 0, 2.0 * frame, 0};
         if (frame == 3) grasps = {5, 9, 6, 11};
         if (frame == 7) grasps = {-1, -1, -1, -1};
-    }
-    EnsembleActions actions() const {
-        return {.wind = wind,
-                .pins = pins,
-                .colliders = colliders,
-                .holds = holds,
-                .gravity = gravity,
-                .hands = hands,
-                .grasps = grasps};
     }
 };
 

@@ -53,17 +53,6 @@ double triangle_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
     return is_over ? std::min(edges, std::abs(dot(minus(p, a), normal)) / length(normal)) : edges;
 }
 
-/// How often triangles wind around a point: the sum of their angles (Jacobson and others 2013) over the whole one.
-double winding(const Triangles& mesh, const Vec3& p) {
-    double sum = 0;
-    for (const auto& [i, j, k] : mesh.triangles) {
-        const Vec3 a = unit_of(minus(mesh.vertices[i], p)), b = unit_of(minus(mesh.vertices[j], p)),
-                   c = unit_of(minus(mesh.vertices[k], p));
-        sum += std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-    }
-    return sum / (2 * std::numbers::pi);
-}
-
 Triangles triangles_of(const MeshShape& shape) { return {shape.vertices(), shape.triangles()}; }
 
 template <class See>

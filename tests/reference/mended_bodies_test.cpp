@@ -21,17 +21,7 @@ namespace drape {
 namespace {
 
 using test::Triangles;
-
-/// Returns the sum of the angles under which triangles are seen (van Oosterom and Strackee 1983) over the whole one.
-double winding(const Triangles& mesh, const Vec3& p) {
-    double sum = 0;
-    for (const auto& [i, j, k] : mesh.triangles) {
-        const Vec3 a = unit_of(minus(mesh.vertices[i], p)), b = unit_of(minus(mesh.vertices[j], p)),
-                   c = unit_of(minus(mesh.vertices[k], p));
-        sum += std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-    }
-    return sum / (2 * std::numbers::pi);
-}
+using test::winding;
 
 void turn_over(Triangle& triangle) { std::swap(triangle[0], triangle[1]); }
 

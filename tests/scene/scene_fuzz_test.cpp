@@ -11,6 +11,13 @@ namespace {
 
 constexpr std::string_view telling = "{}[]\",:-0123456789.eE/\\*tn \n\x01\x80\xC3";
 
+// Sanitizers see more in a round than its result, and take forty times as long for one: they have a fifth as many.
+#ifdef __SANITIZE_ADDRESS__
+constexpr unsigned round_count = 400;
+#else
+constexpr unsigned round_count = 2000;
+#endif
+
 std::string damaged(std::mt19937& random, std::string text) {
     const auto below = [&](std::size_t limit) { return random() % limit; };
     const std::size_t change_count = 1 + below(4);
@@ -41,7 +48,7 @@ std::string damaged(std::mt19937& random, std::string text) {
 TEST(SceneFuzz, DamagedScenesGiveASceneOrErrors) {
     std::mt19937 random(20261129);  // its output is fixed by the standard
     std::size_t scene_count = 0;
-    for (int round = 0; round < 2000; ++round) {
+    for (unsigned round = 0; round < round_count; ++round) {
         const std::string text = damaged(random, testing::full_scene);
         const SceneResult result = read_scene_text(text, "fuzz");
         ASSERT_NE(result.scene.has_value(), !result.errors.empty()) << text;
@@ -53,15 +60,15 @@ TEST(SceneFuzz, DamagedScenesGiveASceneOrErrors) {
         scene_count += result.scene.has_value();
     }
     // Both outcomes must occur, or the damage is not the right kind.
-    EXPECT_GT(scene_count, 20u);
-    EXPECT_LT(scene_count, 1500u);
+    EXPECT_GT(scene_count, round_count / 100);
+    EXPECT_LT(scene_count, round_count / 4 * 3);
 }
 
 TEST(SceneFuzz, DamagedOverridesGiveASceneOrErrors) {
     std::mt19937 random(42);
     const std::vector<std::string> sound{"/cloths/0/pins/2/path/1/t=2.5", "/solver={\"substeps\": [1, {\"a\": null}]}",
                                          "/cloths/0/stiffness=rigid", "/a~1b~0/c=\"\\u00e4\""};
-    for (int round = 0; round < 1000; ++round) {
+    for (unsigned round = 0; round < round_count / 2; ++round) {
         const std::vector<std::string> overrides{damaged(random, sound[random() % sound.size()])};
         const SceneResult result = read_scene_text(testing::full_scene, "fuzz", overrides);
         ASSERT_NE(result.scene.has_value(), !result.errors.empty()) << overrides[0];

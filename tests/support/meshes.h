@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/vectors.h"
 #include "drape/scene.h"
 #include "mesh/mesh_sequence.h"
 
@@ -111,6 +112,18 @@ Mesh deforming_mesh(const Triangles& triangles, const Vec3& position, std::size_
     mesh.sequence = std::make_shared<const MeshSequence>(form, places, xyz);
     mesh.shape = mesh.sequence->form();
     return mesh;
+}
+
+/// Returns how often triangles wind around a point: the sum of their angles (van Oosterom and Strackee 1983; Jacobson
+/// and others 2013) over the whole one.
+inline double winding(const Triangles& mesh, const Vec3& p) {
+    double sum = 0;
+    for (const auto& [i, j, k] : mesh.triangles) {
+        const Vec3 a = unit_of(minus(mesh.vertices[i], p)), b = unit_of(minus(mesh.vertices[j], p)),
+                   c = unit_of(minus(mesh.vertices[k], p));
+        sum += std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+    }
+    return sum / (2 * std::numbers::pi);
 }
 
 inline void shift(Triangles& mesh, const Vec3& by) {
