@@ -255,10 +255,14 @@ void add_scene_options(CLI::App& command, SceneRequest& scene) {
         });
 }
 
-void add_image_options(CLI::App& command, SceneRequest& scene) {
+void add_size_option(CLI::App& command, SceneRequest& scene) {
     add_option(command, "--size", "WIDTHxHEIGHT",
                "Picture size in pixels, 1 to 16384 a side; default: the scene's, else 1280x720",
                [&scene](const std::string& text) { return set_size(text, scene); });
+}
+
+void add_image_options(CLI::App& command, SceneRequest& scene) {
+    add_size_option(command, scene);
     add_view_options(command, scene.view);
     add_choice(command, "--samples", {"1", "4"}, "Samples per pixel; default: the scene's, else 4",
                [&scene](std::size_t place) { scene.samples = place == 0 ? 1 : 4; });

@@ -70,6 +70,8 @@ void add_devices_option(CLI::App& command, std::vector<std::string>& devices);
 void add_validate_option(CLI::App& command, bool& validate);
 /// SCENE, --set, --device, --validate, --no-skip, --kernels
 void add_scene_options(CLI::App& command, SceneRequest& scene);
+/// Adds --size.
+void add_size_option(CLI::App& command, SceneRequest& scene);
 /// Adds --size, --samples, --motion-blur, --draft, --view, --view-range.
 void add_image_options(CLI::App& command, SceneRequest& scene);
 /// Adds the options of add_scene_options and those for folder, frames, formats and messages.

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "base/vectors.h"
+#include "picture/camera.h"
 #include "picture/picture_places.h"
+#include "world/body_pose.h"
 #include "world/collider_pose.h"
 #include "world/start.h"
 #include "world/up.h"
@@ -137,56 +139,14 @@ std::vector<Vec3> subject(const SceneDescription& scene) {
     return points;
 }
 
-/// The extents of points seen from `eye` along `forward` are tangents of the angles to the outermost.
-struct Seen {
-    double left = infinity, right = -infinity, low = infinity, high = -infinity, nearest = infinity;
-};
-Seen seen(const std::vector<Vec3>& points, const Vec3& eye, const std::array<Vec3, 3>& axes) {
-    Seen result;
-    for (const Vec3& point : points) {
-        const Vec3 away = sum(point, eye, -1);
-        const double depth = dot(away, axes[2]);
-        result.nearest = std::min(result.nearest, depth);
-        result.left = std::min(result.left, dot(away, axes[0]) / depth);
-        result.right = std::max(result.right, dot(away, axes[0]) / depth);
-        result.low = std::min(result.low, dot(away, axes[1]) / depth);
-        result.high = std::max(result.high, dot(away, axes[1]) / depth);
-    }
-    return result;
-}
-
 Camera automatic_camera(const SceneDescription& scene, double aspect) {
-    Camera camera;
+    Framing framing(scene, aspect);
+    for (const Vec3& point : subject(scene)) framing.add(point);
+    if (const auto camera = framing.camera()) return *camera;
+    Camera camera;  // of an empty scene
     camera.position = in_world(scene.up, camera.position);
     camera.target = in_world(scene.up, camera.target);
     camera.fov = 34;
-    std::vector<Vec3> points = subject(scene);
-    if (points.empty()) return camera;
-    Bounds bounds;
-    for (const Vec3& point : points) bounds.add(point, 0);
-    const Vec3 diagonal = sum(bounds.high, bounds.low, -1);
-    Vec3 target = sum(bounds.low, diagonal, 0.5);
-    const double size = std::max(length(diagonal), 1e-6);
-    const Vec3 forward = unit(in_world(scene.up, {-0.5, -0.4, -0.85}));
-    const Vec3 right = unit(cross(forward, in_world(scene.up, {0, 1, 0})));
-    const Vec3 up = cross(right, forward);
-    const double half_high = std::tan(camera.fov * std::numbers::pi / 360) * 0.9, half_wide = half_high * aspect;
-    // Bisection finds the nearest distance that shows all of it; the middle of what is seen becomes the target.
-    double near = 0.5 * size, far = 20 * size;
-    for (int round = 0; round < 60; ++round) {
-        const double distance = 0.5 * (near + far);
-        const Seen view = seen(points, sum(target, forward, -distance), {right, up, forward});
-        const bool behind = view.nearest <= 0.02 * size;
-        const double wide = 0.5 * (view.right - view.left), high = 0.5 * (view.high - view.low);
-        const bool fits = !behind && wide <= half_wide && high <= half_high;
-        (fits ? far : near) = distance;
-        if (fits && round < 30) {
-            target = sum(target, right, 0.5 * (view.left + view.right) * distance);
-            target = sum(target, up, 0.5 * (view.low + view.high) * distance);
-        }
-    }
-    camera.position = sum(target, forward, -far);
-    camera.target = target;
     return camera;
 }
 
@@ -202,6 +162,63 @@ BoundingSphere scene_extent(const SceneDescription& scene) {
     if (bounds.empty()) return {};
     const Vec3 diagonal = sum(bounds.high, bounds.low, -1);
     return {sum(bounds.low, diagonal, 0.5), std::max(0.5 * length(diagonal), 1e-6)};
+}
+
+Framing::Framing(const SceneDescription& scene, double aspect) {
+    forward_ = unit(in_world(scene.up, {-0.5, -0.4, -0.85}));
+    fov_ = 34;
+    if (scene.camera) {
+        const Camera start = camera_at(*scene.camera, 0);
+        forward_ = unit(sum(start.target, start.position, -1));
+        fov_ = start.fov;
+    }
+    right_ = unit(cross(forward_, in_world(scene.up, {0, 1, 0})));
+    if (length(right_) == 0) right_ = {1, 0, 0};  // it looks straight up or down
+    up_ = cross(right_, forward_);
+    half_high_ = std::tan(fov_ * std::numbers::pi / 360) * 0.9;
+    half_wide_ = half_high_ * aspect;
+    reach_.fill(-infinity);
+}
+
+std::array<Vec3, 6> Framing::directions() const {
+    return {sum(right_, forward_, -half_wide_),
+            sum(sum({0, 0, 0}, right_, -1), forward_, -half_wide_),
+            sum(up_, forward_, -half_high_),
+            sum(sum({0, 0, 0}, up_, -1), forward_, -half_high_),
+            forward_,
+            sum({0, 0, 0}, forward_, -1)};
+}
+
+void Framing::add(const Vec3& point) {
+    const std::array<Vec3, 6> along = directions();
+    for (std::size_t k = 0; k < along.size(); ++k) reach_[k] = std::max(reach_[k], dot(point, along[k]));
+}
+
+void Framing::add(const Collider& collider, double time) {
+    const std::array<Vec3, 6> along = directions();
+    for (std::size_t k = 0; k < along.size(); ++k)
+        if (const auto reach = reach_along(collider, time, along[k])) reach_[k] = std::max(reach_[k], *reach);
+}
+
+void Framing::add(const SceneDescription& scene, const FinishedFrame& frame) {
+    for (const std::span<const float> cloth : frame.positions)
+        for (std::size_t at = 0; at + 3 < cloth.size(); at += 4) add(Vec3{cloth[at], cloth[at + 1], cloth[at + 2]});
+    for (const Collider& collider : placed(scene.colliders, frame.bodies)) add(collider, frame.frame / scene.time.fps);
+}
+
+std::optional<Camera> Framing::camera() const {
+    const auto& [rightmost, leftmost, highest, lowest, farthest, nearest] = reach_;
+    if (!(farthest > -infinity)) return {};
+    // A camera at x, y and z along its axes shows all up to its right side if x is at least `rightmost` + half_wide z,
+    // and so for the others: from the farthest such z the planes of two sides meet all of it.
+    const double z = std::min({-(rightmost + leftmost) / (2 * half_wide_), -(highest + lowest) / (2 * half_high_),
+                               -nearest - 0.02 * std::max(farthest + nearest, 1e-6)});
+    Camera camera;
+    camera.fov = fov_;
+    camera.position =
+        sum(sum(sum({0, 0, 0}, right_, 0.5 * (rightmost - leftmost)), up_, 0.5 * (highest - lowest)), forward_, z);
+    camera.target = sum(camera.position, forward_, 0.5 * (farthest - nearest) - z);
+    return camera;
 }
 
 Camera picture_camera(const SceneDescription& scene, std::uint32_t width, std::uint32_t height) {

@@ -87,6 +87,28 @@ ColliderPose collider_pose(const Collider& collider, double time) {
     return pose;
 }
 
+std::optional<double> reach_along(const Collider& collider, double time, const Vec3& direction) {
+    const ColliderPose pose = collider_pose(collider, time);
+    const Vec3 size = shape_geometry(collider.shape).size;
+    Vec3 d{0, 0, 0};  // in the shape's own axes
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t k = 0; k < 3; ++k) d[k] += pose.rotation[3 * row + k] * direction[row];
+    const Vec3 by_axis{size[0] * d[0], size[1] * d[1], size[2] * d[2]};
+    const double box = std::abs(by_axis[0]) + std::abs(by_axis[1]) + std::abs(by_axis[2]);
+    using Reach = std::optional<double>;
+    const Reach own = std::visit(
+        ForEachKind{[](const Plane&) { return Reach(); },
+                    [&](const Sphere& ball) { return Reach(ball.radius * length(d)); },
+                    [&](const Box&) { return Reach(box); }, [&](const Ellipsoid&) { return Reach(length(by_axis)); },
+                    [&](const Capsule& rod) {
+                        const double half = size[0] * d[1];
+                        return Reach(std::max(rod.radii[0] * length(d) - half, rod.radii[1] * length(d) + half));
+                    },
+                    [&](const Mesh&) { return Reach(box); }},
+        collider.shape);
+    return own ? Reach(*own + dot(pose.center, direction)) : own;
+}
+
 double pose_number(const Mesh& mesh, double time) {
     const auto count = static_cast<double>(mesh.sequence->count());
     const double number = (time - mesh.frames_start) * mesh.frames_per_second;

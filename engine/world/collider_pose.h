@@ -39,6 +39,9 @@ double pose_number(const Mesh& mesh, double time);
 Collider formed(const Collider& collider, double time);
 /// Returns a bound, m, on how far any point of its surface moves along a straight line by deforming between two times.
 double deformed(const Collider& collider, double from, double to);
+/// Returns how far it reaches along a direction of any length, the largest product with a point of it (its support
+/// function), of a mesh with one of its bounding box, m times the length; nothing: it is unbounded.
+std::optional<double> reach_along(const Collider& collider, double time, const Vec3& direction);
 /// Returns whether the collider neither moves nor deforms between two times, s.
 bool rests(const Collider& collider, double from, double to);
 
