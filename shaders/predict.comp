@@ -1,10 +1,11 @@
 // This pass is the prediction of the line solver in second order: it finishes the last substep (X += d, after the first
 // substep of a frame), decides for each cloth whether the substep is BDF2 or backward Euler, shifts the history and
 // predicts the next displacement. Where `windy`, it adds the wind's force. Particles with w = 0 have a history too, in
-// case they are released.
+// case they are released. Cloths that are sewn together decide alike, by what seam_give.comp has joined.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/line_types.h"
+#include "shared/seam_types.h"
 #include "shared/simulation_types.h"
 #include "include/bdf2.h"
 #include "include/push.h"
@@ -23,6 +24,8 @@ layout(set = 0, binding = 11, rgba32f) uniform readonly image2D velocity_excess_
 TRIPLE_OUT(12, velocity_excess_out);
 layout(set = 0, binding = 13, r32ui) uniform readonly uimage2D line_control_in;
 layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out;
+layout(constant_id = 2) const bool sewn_to_others = false;
+layout(set = 0, binding = 15, std430) readonly buffer SewnPlaces { SewnPlace sewn_places[]; };
 
 bool second_order;  // decided before anything has branched (docs/devices.md)
 
@@ -32,12 +35,18 @@ void store_control(int texel, uint value) {
     imageStore(line_control_out, ivec2(texel, cloth_place()), uvec4(value, 0u, 0u, 0u));
 }
 
+LineControl last_control() {
+    if (sewn_to_others) {
+        uvec4 joined = sewn_places[push.joint].control;
+        return LineControl(joined.x, joined.y, joined.z);
+    }
+    return LineControl(control_before(control_order), control_before(control_wrong_lines),
+                       control_before(control_hold));
+}
+
 /// Every invocation decides, and one invocation of each cloth writes the decision.
 void decide_order() {
-    LineControl control =
-        next_control(LineControl(control_before(control_order), control_before(control_wrong_lines),
-                                 control_before(control_hold)),
-                     push.most_wrong);
+    LineControl control = next_control(last_control(), push.most_wrong);
     second_order = control.order == 2u;
     if (gl_GlobalInvocationID.xy == uvec2(0u)) {
         store_control(control_order, control.order);

@@ -2,8 +2,10 @@
 // seam_take.comp gives it to the other particles there. An invocation takes those of the cloth at one place, in order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/line_types.h"
 #include "shared/seam_types.h"
 #include "shared/simulation_types.h"
+#include "include/bdf2.h"
 #include "include/push.h"
 #include "include/seam.h"
 
@@ -16,6 +18,7 @@ layout(constant_id = 3) const bool sews_between = false;    // some of the parti
 layout(constant_id = 4) const bool sews_closing = false;    // some seams close
 layout(constant_id = 6) const bool sews_weight = false;     // the forces have the change of gravity
 layout(constant_id = 5) const bool sews_leads = false;      // those between two places count by what they change
+layout(constant_id = 7) const bool sews_orders = false;     // the order of the line method's steps alone
 layout(set = 0, binding = 0, std430) readonly buffer SewnParticles { SewnParticle sewn_particles[]; };
 layout(set = 0, binding = 1, std430) buffer SewnPlaces { SewnPlace sewn_places[]; };
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D position;
@@ -26,6 +29,7 @@ layout(set = 0, binding = 6, rgba32f) uniform readonly image2D wind_force;
 layout(set = 0, binding = 7, std430) readonly buffer SewnLeads { vec4 sewn_leads[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Openings { SeamOpening openings[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Wind { vec4 wind[]; };
+layout(set = 0, binding = 10, r32ui) uniform readonly uimage2D line_control;
 
 bool is_between(SewnParticle particle) { return sews_between && particle.between.x >= 0; }
 
@@ -101,9 +105,24 @@ void give_solved(SewnParticle particle, int own, int place, SewnPlace begun) {
     sewn_places[place].displacement = vec4(changes ? changed : sewn_mean(mean.xyz, moved, particle.parts.x), mean.w);
 }
 
+uint control_of_cloth(int texel) { return imageLoad(line_control, ivec2(texel, 0)).x; }
+
+void give_order() {
+    LineControl own = LineControl(control_of_cloth(control_order), control_of_cloth(control_wrong_lines),
+                                  control_of_cloth(control_hold));
+    uvec4 others = sewn_places[push.joint].control;
+    LineControl joint = LineControl(others.x, others.y, push.begins == 1 ? 0u : others.z);
+    joint = joined_control(joint, own, push.most_wrong);
+    sewn_places[push.joint].control = uvec4(joint.order, joint.wrong_lines, joint.hold, 0u);
+}
+
 void main() {
     int own = int(gl_GlobalInvocationID.x);
     if (own >= push.particle_count) return;
+    if (sews_orders) {
+        give_order();
+        return;
+    }
     int place = sewn_particles[own].at.z, count = sewn_particles[own].at.w;
     if (count == 0) return;
     SewnPlace begun = sewn_places[place];

@@ -1,7 +1,9 @@
 #include "cloth/frame_steps.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
+#include <variant>
 
 #include "cloth/cloth_state.h"
 #include "cloth/forces.h"
@@ -38,8 +40,10 @@ class Substep {
     void wind() {
         if (model_.windy) add(StepKind::wind);
     }
-    void predict() {
+    /// `joint`: of the line method, as in PredictPush.
+    void predict(int joint = -1) {
         add(cloth_.scheme.prediction);
+        if (joint >= 0) std::get<glsl::PredictPush>(steps_.back().constants).joint = joint;
         if (cloth_.has_motion) add(StepKind::pin);
     }
     /// Bending is relaxed once per substep: it has no multiplier, so a second pass would make the cloth stiffer.
@@ -126,8 +130,8 @@ void add_seam(const SimulationModel& model, std::uint32_t substep, const SeamSte
     if (count == 0) return;
     const std::size_t weather = first_weather(model, model.cloths[step.cloth].member, substep);
     const auto opening = static_cast<int>(substep * model.closings.size());
-    steps.push_back(
-        {step.kind, step.cloth, substep, 0, glsl::SeamPush{count, step.stage, opening, static_cast<int>(weather) + 1}});
+    steps.push_back({step.kind, step.cloth, substep, 0,
+                     glsl::SeamPush{count, step.stage, opening, static_cast<int>(weather) + 1, -1, 0, 0, 0}});
 }
 
 /// Lets all cloths give, and then take.
@@ -137,11 +141,26 @@ void hand_on(const SimulationModel& model, std::uint32_t substep, int stage, std
             add_seam(model, substep, {kind, cloth, stage}, steps);
 }
 
+/// Lets cloths that are sewn together hand on which order of step they may take, so that all take the same.
+void join_orders(const SimulationModel& model, std::uint32_t substep, const std::vector<int>& joints,
+                 std::vector<Step>& steps) {
+    std::set<int> begun;
+    for (std::size_t cloth = 0; cloth < joints.size(); ++cloth) {
+        if (joints[cloth] < 0) continue;
+        const auto& predicts = std::get<glsl::PredictPush>(model.cloths[cloth].scheme.prediction.front().constants);
+        const int begins = begun.insert(joints[cloth]).second ? 1 : 0;
+        const glsl::SeamPush push{1, glsl::seam_orders, 0, 0, joints[cloth], begins, predicts.most_wrong, 0};
+        steps.push_back({StepKind::seam_give, cloth, substep, 0, push});
+    }
+}
+
 /// Adds a substep of cloths that are sewn: they take turns, and what one does to a seam the others get before theirs.
 class SewnSubstep {
   public:
-    SewnSubstep(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps)
-        : model_(model), substep_(substep), steps_(steps) {
+    /// `joints`: sewn_joints of the model's cloths.
+    SewnSubstep(const SimulationModel& model, const std::vector<int>& joints, std::uint32_t substep,
+                std::vector<Step>& steps)
+        : model_(model), joints_(joints), substep_(substep), steps_(steps) {
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             parts_.emplace_back(model, cloth, substep, steps);
         taken_.resize(parts_.size());
@@ -156,7 +175,10 @@ class SewnSubstep {
         if (!model_.method().iterates() &&
             std::ranges::any_of(model_.cloths, [](const ClothModel& cloth) { return lies_between(cloth.sewn); }))
             hand_on(glsl::seam_begun);
-        for (Substep& part : parts_) part.predict();
+        const bool has_orders = model_.cloths.front().scheme.second_order;
+        if (has_orders) join_orders(model_, substep_, joints_, steps_);
+        for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth)
+            parts_[cloth].predict(has_orders ? joints_[cloth] : -1);
         hand_on(glsl::seam_predicted);
         for (std::uint32_t iteration = 0; iteration < parts_.front().iteration_count(); ++iteration)
             for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth) iterate(cloth, iteration);
@@ -209,6 +231,7 @@ class SewnSubstep {
     }
 
     const SimulationModel& model_;
+    const std::vector<int>& joints_;
     std::uint32_t substep_;
     std::vector<Step>& steps_;
     std::vector<Substep> parts_;
@@ -354,9 +377,12 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
+    std::vector<const std::vector<Sewn>*> sewn;
+    for (const ClothModel& cloth : model.cloths) sewn.push_back(&cloth.sewn);
+    const std::vector<int> joints = sewn_joints(sewn);
         add_motion_of_bodies(model, substep, steps);
         if (model.sewn_count > 0)
-            SewnSubstep(model, substep, steps).add();
+            SewnSubstep(model, joints, substep, steps).add();
         else
             for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
                 Substep(model, cloth, substep, steps).add();
@@ -374,7 +400,7 @@ std::vector<Step> normal_steps(const SimulationModel& model) {
     for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             if (const auto count = static_cast<int>(model.cloths[cloth].sewn.size()); count > 0)
-                steps.push_back({kind, cloth, 0, 0, glsl::SeamPush{count, glsl::seam_normals, 0, 0}});
+                steps.push_back({kind, cloth, 0, 0, glsl::SeamPush{count, glsl::seam_normals, 0, 0, -1, 0, 0, 0}});
     return steps;
 }
 

@@ -125,7 +125,7 @@ glsl::PredictPush predict_constants(const ClothGeometry& cloth, const MethodSett
             euler.gravity_step,
             {rounded(step * gravity[0]), rounded(step * gravity[1]), rounded(step * gravity[2]), 0},
             most_wrong_lines(cloth),
-            0,
+            -1,
             0,
             0};
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/vectors.h"
 #include "cloth/grid.h"
@@ -237,6 +238,27 @@ std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& clo
     std::vector<Sewn> all;
     Stations(scene).add(static_cast<std::size_t>(&cloth - first), named(scene.solver.method).iterates(), all);
     return all;
+}
+
+std::vector<int> sewn_joints(const std::vector<const std::vector<Sewn>*>& cloths) {
+    std::map<int, std::set<std::size_t>> at_place;
+    for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
+        for (const Sewn& each : *cloths[cloth]) at_place[each.sewn.at.z].insert(cloth);
+    std::vector<int> joints(cloths.size(), -1);
+    const auto join = [&](int place, const std::set<std::size_t>& here) {
+        int first = place;
+        for (const std::size_t cloth : here)
+            if (joints[cloth] >= 0) first = std::min(first, joints[cloth]);
+        bool changed = false;
+        for (const std::size_t cloth : here) changed = std::exchange(joints[cloth], first) != first || changed;
+        return changed;
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [place, here] : at_place)
+            if (here.size() > 1) changed = join(place, here) || changed;
+    }
+    return joints;
 }
 
 std::vector<double> sewn_masses(const SceneDescription& scene) { return Stations(scene).masses(); }

@@ -36,4 +36,7 @@ std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& clo
 /// by its weight.
 std::vector<double> sewn_masses(const SceneDescription& scene);
 
+/// Returns, by cloth, the first place of all cloths that it and others are sewn together with; -1: it is sewn to none.
+std::vector<int> sewn_joints(const std::vector<const std::vector<Sewn>*>& cloths);
+
 }  // namespace drape

@@ -410,7 +410,7 @@ const Object<SceneDescription> scene{
          "themselves.",
          cloth_count},
         {"seams", &SceneDescription::seams, list<Seam>(seam, "an array of at most 4096 seams", 0, 4096),
-         "What sews the cloths together. Not beside forces; beside bodies with a mass only by method relax, "
+         "What sews the cloths together. Not beside forces; beside bodies with a mass only by line or relax, "
          "with sides of as many particles each, and without self_collision."},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),

@@ -68,7 +68,8 @@ void turn(ClothState& cloth, Turn turned) {
 Field control_of(const Step& step, bool written) {
     const bool ends_frame = step.kind == StepKind::advance;
     if (ends_frame && written) return Field::line_control;
-    const bool is_before = ends_frame || step.kind == StepKind::release || (step.kind == StepKind::predict && !written);
+    const bool is_before = ends_frame || step.kind == StepKind::release || step.kind == StepKind::seam_give ||
+                           (step.kind == StepKind::predict && !written);
     return (step.substep + (is_before ? 0 : 1)) % 2 == 0 ? Field::line_control : Field::line_control_spare;
 }
 

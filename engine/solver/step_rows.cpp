@@ -37,7 +37,8 @@ std::string explicit_label(Place p) {
     return p.step.count > 1 ? fmt::format("{} explicit steps", p.step.count) : "explicit step";
 }
 std::string seam_words(Place p) {
-    constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces", "normals", "begun", "met"};
+    constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces",
+                                     "normals",   "begun",    "met",    "orders"};
     return words[p.step.push<glsl::SeamPush>().stage];
 }
 std::string seam_give_label(Place p) { return "seam gives " + seam_words(p); }

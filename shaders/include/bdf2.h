@@ -53,4 +53,12 @@ SHARED LineControl next_control(LineControl last, uint most_wrong) {
     return LineControl(hold > 0u ? 1u : 2u, 0u, hold);
 }
 
+/// Returns the control of cloths that are sewn together, from that of some of them, `joint`, and of one more. A
+/// backward Euler step has at once what an impulse gives to a particle, BDF2 over several, so cloths that differ would
+/// lose momentum at their seam.
+SHARED LineControl joined_control(LineControl joint, LineControl own, uint most_wrong) {
+    uint hold = own.wrong_lines > most_wrong ? line_hold_count + 1u : own.hold;
+    return LineControl(own.order, 0u, joint.hold > hold ? joint.hold : hold);
+}
+
 #endif

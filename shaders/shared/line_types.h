@@ -40,7 +40,8 @@ struct PredictPush {
     vec4 gravity_step;       // xyz: phi h^2 g, metres; w unused
     vec4 gravity_step_bdf2;  // xyz: f (4/9) h^2 g, metres; w unused
     uint most_wrong;         // lines that may meet a spring wrong by more than line_violation_limit
-    uint unused_x, unused_y, unused_z;
+    int joint;               // of cloth that is sewn to others: SeamPush::joint; else -1
+    uint unused_x, unused_y;
 };
 
 /// Texels of the line solver's control image (LineControl in include/bdf2.h). A prediction reads the control of the

@@ -10,15 +10,20 @@ namespace drape::glsl {
 
 /// What a cloth's sewn particles hand on: how the prediction or the pins moved them, whether pins hold them, how the
 /// springs moved them, how contact with colliders did, the force on them, their normals, how they moved before a
-/// substep, and how contact between cloths moved them.
+/// substep, and how contact between cloths moved them. Cloths by the line method also hand on which order of step they
+/// may take.
 const int seam_predicted = 0, seam_released = 1, seam_solved = 2, seam_touched = 3, seam_forces = 4, seam_normals = 5,
-          seam_begun = 6, seam_met = 7;
+          seam_begun = 6, seam_met = 7, seam_orders = 8;
 
 struct SeamPush {
     int particle_count;  // the cloth's, at seams
     int stage;
-    int opening;  // the first of the substep's openings
-    int weather;  // where in `wind` the substep's change of gravity is
+    int opening;      // the first of the substep's openings
+    int weather;      // where in `wind` the substep's change of gravity is
+    int joint;        // the place that has the order of steps of all cloths that are sewn together
+    int begins;       // 1 = the cloth is the first of these
+    uint most_wrong;  // of the cloth's lines, as in PredictPush
+    int unused;
 };
 
 /// A particle of a cloth at a place where it is sewn. One that lies between two places is listed at both.
@@ -49,6 +54,7 @@ struct SewnPlace {
     vec4 remainder;     // m: what rounding lost of the displacement
     vec4 before;        // m: the displacement of the substep before
     vec4 vector;        // N: the sum of the forces; w: their drag, N/m. At a frame's end the sum of the normals
+    uvec4 control;      // at a joint: the LineControl of the cloths that are sewn together; w: 0
 };
 
 #ifdef __cplusplus

@@ -90,7 +90,7 @@ TEST_P(BodiesByMethod, AFreeSheetAndABallKeepTheirMomenta) {
 
 /// A ball flies at the seam of two sheets of unlike density that nothing holds, without gravity.
 TEST_P(BodiesByMethod, SewnSheetsAndABallKeepTheirMomentum) {
-    if (GetParam() != SolverMethod::relax) GTEST_SKIP() << "refused: seam_rules_test";
+    if (GetParam() == SolverMethod::explicit_steps) GTEST_SKIP() << "refused: seam_rules_test";
     SceneDescription scene = by_method(level_sheet(0, 0), GetParam(), 64);
     scene.gravity = {0, 0, 0};
     Cloth other = scene.cloths[0];

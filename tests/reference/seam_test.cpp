@@ -118,6 +118,33 @@ TEST(Seam, ExplicitStepsOfHalvesAreThoseOfTheSheet) {
 
 TEST(Seam, FreeClothKeepsItsMomentum) { expect_kept_momentum(halves(12, true)); }
 
+/// The sides of a seam take steps of one order, also through a cloth between them: where one crumples so that it
+/// cannot follow in second order, and the others could, nothing from outside changes their momentum either.
+TEST(Seam, FreeClothOfWhichOnePartCrumplesKeepsItsMomentum) {
+    for (const std::size_t crumpled : {0u, 1u, 2u}) {
+        SceneDescription scene = with_method(halves(12, true), SolverMethod::line, 8);
+        scene.gravity = {};
+        scene.cloths[0].pins.clear();
+        Cloth third = scene.cloths[1];
+        third.name = "third";
+        third.placement.origin[2] += 0.5;
+        third.areal_density = 0.3;
+        scene.cloths.push_back(third);
+        scene.seams.push_back({{"other", SeamEdge::bottom}, {"third", SeamEdge::top}});
+        scene.cloths[crumpled].placement.jitter = 0.08;
+        const SimulationModel model(scene);
+        Twin twin(model);
+        double most = 0;
+        for (std::uint32_t frame = 1; frame <= 30; ++frame) {
+            twin.run_frame(frame);
+            most = std::max(most, length(momenta_of(model, twin).linear));
+        }
+        EXPECT_GT(kinetic_energy(model, twin), 0.01) << "J: it moves by what strained it";
+        std::printf("[ measured ] crumpled %zu: momentum of %.1e kg m/s\n", crumpled, most);
+        EXPECT_LT(most, 2e-6) << "kg m/s";
+    }
+}
+
 TEST(Seam, AFollowerOfAHeldLeaderIsHeldAndOneThatIsLetGoIsFree) {
     SceneDescription scene = with_method(halves(8, true), SolverMethod::line, 8);
     Pin released = test::pin_box(4, 0, 4, 0);

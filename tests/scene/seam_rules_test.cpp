@@ -133,10 +133,10 @@ TEST(SeamRules, TellWhatSeamsDoNotGoWith) {
                     R"(, "solver": {"method": ")" + method +
                         R"("}, "colliders": {"spheres": [{"mass": 9, "center": [9, 0, 0]}]})");
     };
-    EXPECT_EQ(beside_body("", "relax"), SeamTexts{});
-    for (const char* method : {"line", "explicit", "auto"})
+    for (const char* method : {"line", "relax"}) EXPECT_EQ(beside_body("", method), SeamTexts{});
+    for (const char* method : {"explicit", "auto"})
         EXPECT_EQ(beside_body("", method),
-                  SeamTexts{"2: /seams: expected method relax where seams are beside a body with a mass: by "
+                  SeamTexts{"2: /seams: expected method line or relax where seams are beside a body with a mass: by "
                             "others they do not keep the momentum of both"});
     EXPECT_EQ(beside_body(R"(, "self_collision": true)", "relax"),
               SeamTexts{"2: /seams: expected no seams beside a body with a mass where cloths have self_collision: all "

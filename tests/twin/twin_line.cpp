@@ -13,10 +13,14 @@ using namespace glsl;
 namespace {
 
 /// Returns whether the substep is BDF2.
-bool decide_order(TwinCloth& state, uint most_wrong) {
+bool decide_order(TwinCloth& state, const PredictPush& push) {
     auto& texels = state.integers(Field::line_control);
-    const LineControl next =
-        next_control({texels[control_order], texels[control_wrong_lines], texels[control_hold]}, most_wrong);
+    LineControl last{texels[control_order], texels[control_wrong_lines], texels[control_hold]};
+    if (push.joint >= 0) {
+        const glsl::uvec4 joint = (*state.sewn)[static_cast<std::size_t>(push.joint)].control;
+        last = {joint.x, joint.y, joint.z};
+    }
+    const LineControl next = next_control(last, push.most_wrong);
     texels = {next.order, next.wrong_lines, next.hold};
     return next.order == 2u;
 }
@@ -25,7 +29,7 @@ void run_predict(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<PredictPush>();
     const bool advance = step.substep > 0;
-    const bool is_bdf2 = decide_order(state, push.most_wrong);
+    const bool is_bdf2 = decide_order(state, push);
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const vec4 position = state[Field::position][i];
         const vec3 displacement = xyz(state[Field::displacement][i]);

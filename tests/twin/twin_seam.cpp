@@ -136,9 +136,21 @@ void give_solved(const TwinPlace& where) {
     });
 }
 
+void give_order(const TwinPlace& where) {
+    const auto& push = where.step.push<SeamPush>();
+    const auto& own = where.state.integers(Field::line_control);
+    glsl::uvec4& control = (*where.state.sewn)[static_cast<std::size_t>(push.joint)].control;
+    const LineControl joint =
+        joined_control({control.x, control.y, push.begins == 1 ? 0u : control.z},
+                       {own[control_order], own[control_wrong_lines], own[control_hold]}, push.most_wrong);
+    control = {joint.order, joint.wrong_lines, joint.hold, 0};
+}
+
 void run_give(const TwinPlace& where) {
     const int stage = stage_of(where);
-    if (has_vectors(stage))
+    if (stage == seam_orders)
+        give_order(where);
+    else if (has_vectors(stage))
         give_vectors(where);
     else if (moves_all(stage))
         give_means(where);
