@@ -9,7 +9,7 @@
 #include "include/end_velocity.h"
 #include "include/push.h"
 #include "include/verlet.h"
-PUSH_CONSTANTS(GridPush)
+CLOTH_CONSTANTS(AdvancePush)
 #define TOGETHER
 layout(constant_id = 24) const bool comes_home = false;
 const bool in_place = !comes_home;
@@ -35,7 +35,7 @@ void finish(ivec2 texel) {
     vec4 moved = LOAD(displacement_in, texel);
     advance_position(texel, LOAD(position_in, texel), moved.xyz);
     if (keeps_excess) {
-        vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz);
+        vec3 excess = end_excess(moved.xyz, LOAD(displacement_before, texel).xyz, push.half_share);
         STORE_VECTOR(end_excess_out, texel, vec4(excess, 0.0f));
     }
     if (!comes_home) return;

@@ -4,6 +4,7 @@
 
 #include "cloth/directions.h"
 #include "cloth/kernel_steps.h"
+#include "cloth/substep_change.h"
 #include "solver/step_size.h"
 
 namespace drape {
@@ -69,6 +70,11 @@ graph::PushConstants release_push(Place p) {
 }
 graph::PushConstants stiffness_push(Place p) {
     return glsl::StiffnessPush{p.cloth->model->grid.size(), static_cast<int>(p.step.cloth), 0};
+}
+graph::PushConstants advance_push(Place p) {
+    const ClothModel& cloth = *p.cloth->model;
+    return glsl::AdvancePush{cloth.grid.size(),
+                             static_cast<float>(0.5 * excess_share(cloth.damping, cloth.substep_length)), 0};
 }
 graph::PushConstants grid_push(Place p) { return glsl::GridPush{p.cloth->model->grid.size()}; }
 graph::PushConstants spring_push(Place p) {
@@ -211,7 +217,7 @@ std::vector<StepRow> other_rows() {
          before_alias},
         {StepKind::residual, "residual", {{plain, "residual.comp", over_residual_strips}}, residual_push},
         {StepKind::decide, "iteration decision", {{plain, "iteration_decision.comp", one_invocation}}, decide_push},
-        {StepKind::advance, "advance", {{plain, "advance.comp", over_strips}}, grid_push, turns_home, before_alias},
+        {StepKind::advance, "advance", {{plain, "advance.comp", over_strips}}, advance_push, turns_home, before_alias},
         {StepKind::clear_impulses, "impulses", {{plain, "clear_impulses.comp", one_workgroup}}},
         {StepKind::body_meet, "contact of bodies", {{plain, "body_meet.comp", one_workgroup_of_bodies}}},
         {StepKind::body_move, "motion of bodies", {{plain, "body_move.comp", over_bodies}}},

@@ -1,7 +1,7 @@
 // The velocity at the end of a substep, and the state of a substep of another length (docs/solvers.md, "Steps that
 // change"). The displacement d of a substep of length h is h times its mean velocity; with the displacement b of the
 // substep before, of the same length, h times the velocity at its end is d + e, e = (d - b)/2 = h^2/2 times the
-// acceleration.
+// acceleration. Under damping e has a share of that, with which d + e is exact in flight (excess_share).
 #ifndef DRAPE_END_VELOCITY_H
 #define DRAPE_END_VELOCITY_H
 
@@ -9,8 +9,8 @@
 
 /// Returns e (m), which is zero for a particle that stands still, such as that of a pin that has stopped. For a
 /// particle that a collider touched, `before` is the value that collision.comp stored, the displacement itself.
-SHARED vec3 end_excess(vec3 displacement, vec3 before) {
-    precise vec3 excess = (displacement - before) * 0.5f;
+SHARED vec3 end_excess(vec3 displacement, vec3 before, float half_share) {
+    precise vec3 excess = (displacement - before) * half_share;
     bool stands = displacement.x == 0.0f && displacement.y == 0.0f && displacement.z == 0.0f;
     return stands ? vec3(0.0f, 0.0f, 0.0f) : excess;
 }
@@ -25,9 +25,9 @@ struct ChangedSubstep {
 
 SHARED ChangedSubstep changed_substep(vec3 displacement, vec3 excess, SubstepChange change) {
     precise vec3 velocity = (displacement + excess) * change.ratio;
-    precise vec3 moved = velocity - excess * change.motion;
     precise vec3 changed_excess = excess * change.excess;
-    precise vec3 before = moved - changed_excess * 2.0f;
+    precise vec3 moved = velocity - changed_excess;
+    precise vec3 before = moved - excess * change.before;
     precise vec3 excess_before = excess * change.excess_before;
     return ChangedSubstep(moved, before, changed_excess, excess_before);
 }

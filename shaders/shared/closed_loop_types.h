@@ -14,8 +14,8 @@ const int difference_rows = 8;
 /// Weights of changed_substep (include/end_velocity.h) from a cloth's substeps to those of an attempt.
 struct SubstepChange {
     float ratio;          // new length over old
-    float motion;         // on the excess in the displacement; without damping the ratio's square
     float excess;         // on the excess in the new excess; without damping the ratio's square
+    float before;         // on the excess in the last change of displacement; without damping twice the ratio's square
     float excess_before;  // on the excess in that of the substep before; without damping the ratio's square
 };
 

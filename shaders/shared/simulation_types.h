@@ -144,6 +144,12 @@ struct GridPush {
     ivec2 grid;
 };
 
+struct AdvancePush {
+    ivec2 grid;
+    float half_share;  // half of excess_share (engine/cloth/substep_change.h)
+    float unused;
+};
+
 struct StiffnessPush {
     ivec2 grid;
     int cloth;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/vectors.h"
 #include "cloth/simulation_model.h"
 #include "support/sheets.h"
 #include "twin/twin.h"
@@ -151,6 +152,31 @@ Vec3 mean_velocity(const Twin& twin, const SimulationModel& model, std::size_t c
     }
     const double per_substep = model.scene.solver.substeps * model.scene.time.fps;
     return {sum[0] / mass * per_substep, sum[1] / mass * per_substep, sum[2] / mass * per_substep};
+}
+
+/// In damped flight it is that of the closed form, and a change of the substeps' length leaves it so.
+TEST_P(EndVelocity, OfDampedFlightIsExactBeforeAndAfterAChangeOfSubsteps) {
+    SceneDescription scene = falling(GetParam(), 0);
+    scene.colliders.clear();
+    scene.forces = true;
+    scene.solver.substeps = 4;
+    Cloth& cloth = scene.cloths[0];
+    cloth.damping = 3;
+    cloth.velocity = {1, 4, -2};
+    const SimulationModel model(scene), finer(model, 96);
+    Twin twin(model);
+    double worst = 0;
+    const auto look = [&](const SimulationModel& run, double seconds) {
+        const Vec3 terminal{0, -9.81 / cloth.damping, 0};
+        const Vec3 left = times(std::exp(-cloth.damping * seconds), minus(cloth.velocity, terminal));
+        worst = std::max(worst, length(minus(mean_velocity(twin, run, 0), plus(terminal, left))));
+    };
+    for (std::uint32_t frame = 1; frame <= 3; ++frame) twin.run_frame(frame), look(model, frame / 60.0);
+    twin.change_substep(finer);
+    look(finer, 3 / 60.0);
+    for (std::uint32_t frame = 4; frame <= 6; ++frame) twin.run_frame(frame), look(finer, frame / 60.0);
+    std::printf("[ measured ] damped flight: off by %.1e m/s of 4.6\n", worst);
+    EXPECT_LT(worst, 1e-5);
 }
 
 /// Two sheets fall; the lower one is thrown up at the upper one. Neither the moment of the impact within a frame nor

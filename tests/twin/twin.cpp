@@ -278,8 +278,9 @@ void run_tether(const TwinPlace& where) {
 void run_advance(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const std::vector<vec4>& before = where.before();
+    const auto half_share = static_cast<float>(0.5 * excess_share(where.model.damping, where.model.substep_length));
     for (std::size_t i = 0; i < state[Field::end_excess].size(); ++i)
-        state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i])));
+        state[Field::end_excess][i] = texel(end_excess(xyz(state[Field::displacement][i]), xyz(before[i]), half_share));
     for (std::size_t i = 0; i < state[Field::position].size(); ++i) {
         const CompensatedSum advanced =
             compensated_add(xyz(state[Field::position][i]), xyz(state[Field::displacement][i]),
