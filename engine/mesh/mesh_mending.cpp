@@ -107,6 +107,13 @@ bool leave_single(std::vector<Triangle>& triangles, Mending& done) {
     return left > 0;
 }
 
+/// Welds where edges are open, and where some still are leaves single triangles.
+void join_edges(Surface& surface, Mending& done, std::vector<std::uint32_t>& places) {
+    if (open_edges(surface.triangles) == 0) return;
+    if (done.tolerance > 0) weld_open(surface, done, places);
+    if (open_edges(surface.triangles) > 0) leave_single(surface.triangles, done);
+}
+
 /// How a surface's parts were turned.
 struct Turning {
     std::vector<std::uint32_t> part_of;  ///< each triangle's part
@@ -290,13 +297,13 @@ Mending mend(Surface& surface, Solid solid, const Vec3& origin, std::vector<std:
     if (solid == Solid::strict) return turn_strictly(surface, origin);
     Mending done;
     done.tolerance = weld_share * bounding_diagonal(surface);
-    if (open_edges(surface.triangles) > 0) {
-        if (done.tolerance > 0) weld_open(surface, done, places);
-        if (open_edges(surface.triangles) > 0) leave_single(surface.triangles, done);
-    }
+    join_edges(surface, done, places);
     Turning turning = turn_parts(surface, origin, done);
-    // Where each triangle has one on its back, no two are a part.
-    if (bounds_nothing(surface) && leave_single(surface.triangles, done)) turning = turn_parts(surface, origin, done);
+    // Where each triangle has one on its back, no two are a part, and no edge seems open.
+    if ((bounds_nothing(surface) || !turning.closed) && leave_single(surface.triangles, done)) {
+        join_edges(surface, done, places);
+        turning = turn_parts(surface, origin, done);
+    }
     if (turning.closed) return done;
     close_holes(surface, solid, done);
     if (!done.rim.empty())

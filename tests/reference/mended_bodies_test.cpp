@@ -86,7 +86,7 @@ struct Body {
     bool needs_mending = true;
 };
 
-/// Seven kinds of fault of three shapes, and four of them at once.
+/// Seven kinds of fault of three shapes, four of them at once, and five of them in two ways.
 std::vector<Body> bodies() {
     std::mt19937 random(22);
     std::vector<Body> all;
@@ -113,14 +113,17 @@ std::vector<Body> bodies() {
         body.needs_mending = false;
     }
     const Triangles& ball = shapes[0].second;
-    all.push_back({"ball with most of it", ball,
-                   gaping(with_mixed_normals(with_holes(with_loose_parts(ball), random), random), random)});
+    const Triangles most = with_mixed_normals(with_holes(with_loose_parts(ball), random), random);
+    all.push_back({"ball with most of it", ball, gaping(most, random)});
+    all.push_back({"ball with most of it, doubled", ball, doubled(gaping(most, random))});
+    all.push_back({"ball doubled, with the rest", ball,
+                   gaping(with_mixed_normals(doubled(with_holes(with_loose_parts(ball), random)), random), random)});
     return all;
 }
 
-TEST(MendedBodies, TwentyTwoKeepClothOut) {
+TEST(MendedBodies, TwentyFourKeepClothOut) {
     const std::vector<Body> all = bodies();
-    ASSERT_EQ(all.size(), 22u);
+    ASSERT_EQ(all.size(), 24u);
     for (const Body& body : all) {
         SCOPED_TRACE(body.name);
         Mesh mesh;
