@@ -96,6 +96,10 @@ struct Ensemble::Parts {
     }
 
     MemberFrameOptions frame_options() const { return {options.normals, options.kernels}; }
+    void expect_fields() const {
+        if (!members.front()->model.scene.force_fields)
+            throw Error("no tensions and contact forces: the scenes do not say \"forces\": \"fields\"");
+    }
     void check_numbers(std::span<const std::size_t> numbers) const {
         for (const std::size_t number : numbers)
             if (number >= members.size())
@@ -182,6 +186,15 @@ MemberArray Ensemble::velocities(std::size_t cloth) const {
 MemberArray Ensemble::normals(std::size_t cloth) const {
     if (!parts_->options.normals) throw Error("no normals: the ensemble was made without");
     return parts_->frames->array(cloth, MemberValue::normal);
+}
+
+MemberArray Ensemble::tensions(std::size_t cloth) const {
+    parts_->expect_fields();
+    return parts_->frames->array(cloth, MemberValue::tension);
+}
+MemberArray Ensemble::contact_forces(std::size_t cloth) const {
+    parts_->expect_fields();
+    return parts_->frames->array(cloth, MemberValue::contact_force);
 }
 
 SimulationState Ensemble::save(std::size_t number) const {

@@ -27,6 +27,7 @@ FrameOptions frame_options(const SimulationModel& model, const MemberFrameOption
     options.positions = options.velocities = options.statistics = options.judges = true;
     options.arrays_later = lasting;
     options.normals = wanted.normals;
+    options.fields = model.scene.force_fields;
     options.kernels = wanted.kernels;
     if (model.closed_loop() && !alone) options.timestamps = graph::TimestampMode::none;
     return options;
@@ -106,7 +107,8 @@ std::vector<std::vector<std::size_t>> MemberFrames::groups_of(const vulkan::Devi
 void MemberFrames::make_group(const vulkan::Device& device, const std::vector<std::size_t>& numbers) {
     const SimulationModel& first = members_[numbers.front()]->model;
     const bool alone = numbers.size() == 1;
-    const bool lasting = !alone && !first.closed_loop() && !first.self_contact && !options_.normals;
+    const bool lasting =
+        !alone && !first.closed_loop() && !first.self_contact && !options_.normals && !first.scene.force_fields;
     FrameOptions options = frame_options(first, options_, lasting, alone);
     options.meanwhile = [this] {
         if (meanwhile_) std::exchange(meanwhile_, {})();
@@ -202,7 +204,8 @@ void MemberFrames::keep(std::size_t number, const FinishedFrame& finished) {
     member.effort = finished.effort;
     member.self_contact = server_of(number).member(seats_[number].place).self_contact();
     if (lasts(number)) return;
-    const std::array all{&finished.positions, &finished.velocities, &finished.normals};
+    const std::array<const std::vector<std::span<const float>>*, member_value_count> all{
+        &finished.positions, &finished.velocities, &finished.normals, &finished.tensions, &finished.contact_forces};
     for (std::size_t value = 0; value < all.size(); ++value) {
         arrays_[number][value].clear();
         for (const std::span<const float> array : *all[value])

@@ -15,8 +15,8 @@
 namespace drape {
 
 /// The kinds of array that members hand out.
-enum class MemberValue : std::uint8_t { position, velocity, normal };
-inline constexpr std::size_t member_value_count = 3;
+enum class MemberValue : std::uint8_t { position, velocity, normal, tension, contact_force };
+inline constexpr std::size_t member_value_count = 5;
 
 struct MemberFrameOptions {
     bool normals;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -228,6 +229,33 @@ TEST_F(ForceFieldsOnceTest, SpringsThatAreCutAreGone) {
         std::vector<Cut> cuts;
         Simulation simulation(scene, {.on_cut = [&](const Cut& cut) { cuts.push_back(cut); }}, library_device());
         simulation.step();
+/// Members of ensembles have those of their scenes alone.
+TEST_F(ForceFieldsOnceTest, MembersHaveThem) {
+    for (const SolverMethod method : test::all_methods) {
+        SceneDescription scene = test::by_method(hanging_strip(), method, 8);
+        scene.colliders = {{Sphere{{0.06, -0.25, -0.05}, 0.1}, 0.4}};
+        scene.forces = scene.force_fields = true;
+        scene.time.frame_count = 5;
+        std::vector<SceneDescription> scenes(3, scene);
+        for (std::size_t k = 0; k < 3; ++k) scenes[k].gravity[2] = 0.5 * static_cast<double>(k);
+        Ensemble ensemble(scenes, {}, library_device());
+        for (int frame = 1; frame < 5; ++frame) ensemble.step();
+        const MemberArray tensions = ensemble.tensions(0), contacts = ensemble.contact_forces(0);
+        ASSERT_EQ(tensions.members, 3u);
+        for (std::size_t k = 0; k < 3; ++k) {
+            Simulation alone(scenes[k], {}, library_device());
+            while (alone.step()) {
+            }
+            const auto same = [&](const MemberArray& all, std::span<const float> own) {
+                return std::ranges::equal(std::span(all.data + k * all.member_stride, 4 * all.rows * all.columns), own);
+            };
+            EXPECT_TRUE(same(tensions, alone.frame().tensions[0])) << named(method).name << k;
+            EXPECT_TRUE(same(contacts, alone.frame().contact_forces[0])) << named(method).name << k;
+        }
+    }
+    EXPECT_THROW(Ensemble({hanging_strip(), hanging_strip()}, {}, library_device()).tensions(0), Error);
+}
+
         const int before = count(simulation.spring_bits(0));
         EXPECT_EQ(before, 3 * 13 + 4 * 12 + 2 * 3 * 12);
         while (simulation.step()) {

@@ -297,10 +297,18 @@ class ForcesAndActions(Validated):
         self.assertGreater(np.abs(step.contact_forces()).max(), 0)
         told = [step.statistics[f"cloth/force_collider_0_sphere_{axis}_n"] for axis in "xyz"]
         np.testing.assert_allclose(step.contact_forces().sum(axis=(0, 1)), told, rtol=1e-5, atol=1e-6)
+        members = drape.Ensemble(scene, 2, validate=True)
+        for _ in range(frame):
+            members.step()
+        self.assertEqual(members.tensions().shape, (2, 7, 9, 4))
+        np.testing.assert_array_equal(members.tensions()[1], step.tensions())
+        np.testing.assert_array_equal(members.contact_forces()[1], step.contact_forces())
         plain = self.simulate(sheet())
         plain.step()
         with self.assertRaisesRegex(ValueError, "\"forces\": \"fields\""):
             plain.tensions()
+        with self.assertRaisesRegex(drape.Error, "\"forces\": \"fields\""):
+            drape.Ensemble(sheet(), 2, validate=True).tensions()
 
     def test_a_simulation_is_told_what_an_ensemble_is(self):
         scene = sheet(wind={"velocity": [0, 0, 1]})

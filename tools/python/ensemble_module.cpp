@@ -68,12 +68,12 @@ class PyEnsemble {
 };
 
 py::array member_vectors(const py::object& owner, const py::object& which,
-                         MemberArray (Ensemble::*what)(std::size_t) const) {
+                         MemberArray (Ensemble::*what)(std::size_t) const, int numbers) {
     const Ensemble& self = py::cast<const PyEnsemble&>(owner).ensemble();
     const MemberArray array = (self.*what)(cloth_number(self.scene(0), which));
     const auto size = [](std::size_t count) { return static_cast<py::ssize_t>(count); };
     const py::ssize_t pitch = 4 * sizeof(float);
-    return view(array.data, {size(array.members), size(array.rows), size(array.columns), 3},
+    return view(array.data, {size(array.members), size(array.rows), size(array.columns), numbers},
                 {size(array.member_stride * sizeof(float)), size(array.columns) * pitch, pitch, sizeof(float)}, owner);
 }
 
@@ -173,9 +173,13 @@ void define_member_states(py::class_<PyEnsemble>& ensemble) {
 }
 
 void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
-    const auto add = [&](const char* name, MemberArray (Ensemble::*what)(std::size_t) const, const char* help) {
+    const auto add = [&](const char* name, MemberArray (Ensemble::*what)(std::size_t) const, const char* help,
+                         int numbers = 3) {
         ensemble.def(
-            name, [what](const py::object& self, const py::object& cloth) { return member_vectors(self, cloth, what); },
+            name,
+            [what, numbers](const py::object& self, const py::object& cloth) {
+                return member_vectors(self, cloth, what, numbers);
+            },
             py::arg("cloth") = 0, help);
     };
     add("positions", &Ensemble::positions,
@@ -183,6 +187,13 @@ void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
         "number or name.");
     add("velocities", &Ensemble::velocities, "float32 [member, row, column, 3], m/s, at the frames' ends.");
     add("normals", &Ensemble::normals, "float32 [member, row, column, 3], unit, of the front; needs normals=True.");
+    add("tensions", &Ensemble::tensions,
+        "float32 [member, row, column, 4], N: what the springs to the right (column + 1), down (row + 1), down right "
+        "and down left bear, pulled above 0; needs \"forces\": \"fields\" in the scenes.",
+        4);
+    add("contact_forces", &Ensemble::contact_forces,
+        "float32 [member, row, column, 3], N: the mean force of contact with colliders and cloth in the frame; needs "
+        "\"forces\": \"fields\".");
 }
 
 }  // namespace

@@ -120,6 +120,9 @@ class Ensemble {
     MemberArray positions(std::size_t cloth) const;   ///< x y z, m, and w: relative inverse mass, 0: held
     MemberArray velocities(std::size_t cloth) const;  ///< x y z, m/s, at the frames' ends
     MemberArray normals(std::size_t cloth) const;     ///< unit x y z of the front; only with EnsembleOptions::normals
+    /// N, as FinishedFrame::tensions and contact_forces; only of scenes with `force_fields`. Throws Error without.
+    MemberArray tensions(std::size_t cloth) const;
+    MemberArray contact_forces(std::size_t cloth) const;
     /// Returns a picture of a member by its scene's camera and size: rows from the top, sRGB, four bytes a pixel. It is
     /// valid until the next.
     std::span<const std::uint8_t> picture(std::size_t member);
