@@ -1,5 +1,5 @@
 // This pass sums what contact with other cloths gives to a cloth: what it gives to all of its particles, since those of
-// pairs within a cloth cancel.
+// pairs within a cloth cancel. Where it `keeps_contact`, each particle gets what it was given by both.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/self_contact_types.h"
@@ -19,6 +19,9 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly imageBuffer velocities;  
 #define IMPULSES_SLOT 4
 #include "include/book_impulses.h"
 
+layout(constant_id = 33) const bool keeps_contact = false;
+layout(set = 0, binding = 5, rgba32f) uniform image2D contact_impulses;
+
 float units;
 ImpulseSum by_contact = no_impulse();
 
@@ -27,7 +30,11 @@ void add(ivec2 texel) {
     float inverse_mass = LOAD(position, texel).w;
     if (imageLoad(before, place).w != self_pushed || !(inverse_mass > 0.0f)) return;
     vec3 motion = given_by_contact(imageLoad(velocities, place).xyz, LOAD(displacement, texel).xyz);
-    by_contact = with_impulse(by_contact, impulse_of_motion(motion, reciprocal(inverse_mass)), units);
+    vec3 impulse = impulse_of_motion(motion, reciprocal(inverse_mass));
+    by_contact = with_impulse(by_contact, impulse, units);
+    if (!keeps_contact) return;
+    vec3 sum = more_impulse(LOAD(contact_impulses, texel).xyz, impulse);
+    imageStore(contact_impulses, placed(texel), vec4(sum, 0.0f));
 }
 
 void main() {

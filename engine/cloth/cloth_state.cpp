@@ -26,7 +26,9 @@ bool always(Context) { return true; }
 bool sums_impulses(Context c) { return drape::sums_impulses(c.model.scene); }
 bool splits_pins(Context c) { return drape::splits_pins(c.model); }
 std::size_t index_of(Context c) { return static_cast<std::size_t>(&c.cloth - c.model.cloths.data()); }
-bool keeps_contact(Context c) { return c.model.scene.force_fields && !c.model.scene.colliders.empty(); }
+bool keeps_contact(Context c) {
+    return c.model.scene.force_fields && (!c.model.scene.colliders.empty() || c.model.self_contact);
+}
 bool bears_bodies(Context c) { return has_bodies(c.model, index_of(c)); }
 bool meets_bodies(Context c) { return bears_bodies(c) && bodies_meet(c.model); }
 bool has_hulls(Context c) { return bears_bodies(c) && !c.model.bodies[c.cloth.member].hull_points.empty(); }

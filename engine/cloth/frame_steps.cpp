@@ -257,7 +257,8 @@ class ContactSteps {
         for (const StepKind kind : {StepKind::self_primitives, StepKind::self_pairs, StepKind::self_begin})
             add_one(kind);
         add_impulses(false);
-        if (model_.scene.forces && model_.cloths.size() > 1) add_for_cloths(StepKind::self_impulses);
+        if (model_.scene.force_fields || (model_.scene.forces && model_.cloths.size() > 1))
+            add_for_cloths(StepKind::self_impulses);
         if (is_last()) add_impulses(true);
         if (!model_.scene.colliders.empty()) collide();
         sew(true);
@@ -376,10 +377,10 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     add_begin_of_impulses(model, steps);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
-    for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
     std::vector<const std::vector<Sewn>*> sewn;
     for (const ClothModel& cloth : model.cloths) sewn.push_back(&cloth.sewn);
     const std::vector<int> joints = sewn_joints(sewn);
+    for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
         add_motion_of_bodies(model, substep, steps);
         if (model.sewn_count > 0)
             SewnSubstep(model, joints, substep, steps).add();

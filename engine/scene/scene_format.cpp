@@ -424,7 +424,7 @@ const Object<SceneDescription> scene{
          "Whether the numbers of each frame tell the forces on each cloth: at each of its pins, of each collider, of "
          "gravity, air, damping and other cloths. \"worst\": also the largest force of a substep, of colliders, other "
          "cloths, air and loads. \"fields\": all this and, beside exported positions, what each spring bears and what "
-         "colliders do to each particle. Absent: false."},
+         "contact does to each particle. Absent: false."},
         {"actions", &SceneDescription::actions, optional<SceneActions>(actions),
          "What it is told on the way: what an ensemble was told. Absent: nothing."},
         {"camera", &SceneDescription::camera, optional<Camera>(camera),

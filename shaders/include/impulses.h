@@ -123,6 +123,12 @@ SHARED vec3 given_by_contact(vec3 after, vec3 before) {
     return given;
 }
 
+/// Returns the sum of impulses with one more.
+SHARED vec3 more_impulse(vec3 sum, vec3 impulse) {
+    precise vec3 more = sum + impulse;
+    return more;
+}
+
 SHARED vec3 impulse_of_motion(vec3 given, float mass) {
     precise vec3 impulse = given * mass;
     return impulse;

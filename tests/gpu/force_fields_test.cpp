@@ -23,18 +23,18 @@ using test::library_device;
 
 constexpr int offsets[4][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
 
-/// A frame's arrays of the first cloth.
+/// A frame's arrays of a cloth.
 struct FieldsOfFrame {
-    explicit FieldsOfFrame(const Simulation& simulation)
-        : columns(simulation.scene().cloths[0].grid[0]),
-          rows(simulation.scene().cloths[0].grid[1]),
-          statistics(simulation.frame().statistics[0]) {
+    explicit FieldsOfFrame(const Simulation& simulation, std::size_t cloth = 0)
+        : columns(simulation.scene().cloths[cloth].grid[0]),
+          rows(simulation.scene().cloths[cloth].grid[1]),
+          statistics(simulation.frame().statistics[cloth]) {
         const FinishedFrame& frame = simulation.frame();
         const auto copy = [](std::span<const float> from) { return std::vector<float>(from.begin(), from.end()); };
-        positions = copy(frame.positions[0]);
-        tensions = copy(frame.tensions.at(0));
-        contacts = copy(frame.contact_forces.at(0));
-        springs = simulation.spring_bits(0);
+        positions = copy(frame.positions[cloth]);
+        tensions = copy(frame.tensions.at(cloth));
+        contacts = copy(frame.contact_forces.at(cloth));
+        springs = simulation.spring_bits(cloth);
     }
 
     Vec3 place(std::size_t particle) const {
@@ -82,13 +82,19 @@ struct FieldsOfFrame {
     std::vector<std::uint8_t> springs;
 };
 
-/// Runs a scene that tells fields to its last frame, by a method with so many substeps.
-FieldsOfFrame last_frame(SceneDescription scene, SolverMethod method, std::uint32_t substeps, std::uint32_t last) {
+/// Returns a scene that tells fields, by a method with so many substeps.
+SceneDescription with_fields(SceneDescription scene, SolverMethod method, std::uint32_t substeps, std::uint32_t last) {
     scene = test::by_method(scene, method, substeps);
     if (method == SolverMethod::automatic) scene.solver = {};
     scene.forces = scene.worst_forces = scene.force_fields = true;
     scene.time.frame_count = last + 1;
-    Simulation simulation(scene, {}, library_device());
+    return scene;
+}
+
+/// Runs such a scene to its last frame.
+FieldsOfFrame last_frame(const SceneDescription& scene, SolverMethod method, std::uint32_t substeps,
+                         std::uint32_t last) {
+    Simulation simulation(with_fields(scene, method, substeps, last), {}, library_device());
     while (simulation.step()) {
     }
     return FieldsOfFrame(simulation);
@@ -129,6 +135,26 @@ TEST_P(ForceFieldsTest, AtItsEndACatenaryBearsWhatThePinsGive) {
         const Vec3 held{0, 0.5 * link, 0};  // a pin also bears the half link that it holds
         expect_near(minus(held, pull), frame.force(end == 0 ? "pins_0" : "pins_1"), 1e-4, "an end's springs");
     }
+}
+
+/// A sheet lies on another, and that on a box.
+TEST_P(ForceFieldsTest, ASheetBearsTheOneOnIt) {
+    SceneDescription scene = level_sheet(0.1042, 12);
+    scene.cloths[0].self_collision = SelfCollision{0.004, {}};
+    scene.cloths.push_back(scene.cloths[0]);
+    scene.cloths[1].name = "upper";
+    scene.cloths[1].placement.origin[1] += 0.0042;
+    scene.colliders = {{Box{{0, 0, 0}, {0.5, 0.1, 0.5}}, 0.5}};
+    scene = with_fields(scene, GetParam(), 8, 40);
+    Simulation simulation(scene, {}, library_device());
+    while (simulation.step()) {
+    }
+    const FieldsOfFrame lower(simulation), upper(simulation, 1);
+    const Vec3 weight{0, upper.weight(), 0};
+    expect_near(upper.touched(), weight, 1e-4, "contact forces of the upper sheet");
+    expect_near(upper.touched(), upper.force("other_cloths"), 1e-5, "the lower one's force");
+    expect_near(lower.touched(), weight, 1e-4, "contact forces of the lower one");
+    expect_near(lower.touched(), plus(lower.force("collider_0_box"), lower.force("other_cloths")), 1e-5, "both");
 }
 
 TEST_P(ForceFieldsTest, ContactForcesAreTheWeightAndTheCollidersForce) {
@@ -203,32 +229,6 @@ TEST_F(ForceFieldsOnceTest, SavedStatesHaveThem) {
     }
 }
 
-/// Rigid springs have no law, and relaxation keeps no multiplier of them.
-TEST_F(ForceFieldsOnceTest, WhatNobodyKnowsIsNoNumber) {
-    SceneDescription scene = level_sheet(0, 3);
-    scene.cloths[0].stiffness.rigid = true;
-    const FieldsOfFrame frame = last_frame(scene, SolverMethod::relax, 4, 2);
-    EXPECT_TRUE(std::isnan(frame.tensions[0]));
-    EXPECT_EQ(frame.tensions[4 * 80], 0) << "the last particle is the first of no spring";
-}
-
-int count(const std::vector<std::uint8_t>& springs) {
-    return std::accumulate(springs.begin(), springs.end(), 0,
-                           [](int sum, std::uint8_t bits) { return sum + std::popcount(bits); });
-}
-
-TEST_F(ForceFieldsOnceTest, SpringsThatAreCutAreGone) {
-    for (const SolverMethod method : test::all_methods) {
-        SceneDescription scene = test::by_method(hanging_strip(), method, 12);
-        scene.forces = scene.force_fields = true;
-        scene.time.frame_count = 60;
-        Cutter blade;
-        blade.triangle = {{{-1, -0.26, -1}, {2, -0.26, -1}, {0, -0.26, 2}}};
-        blade.begin = blade.end = 0.05;
-        scene.cutters = {blade};
-        std::vector<Cut> cuts;
-        Simulation simulation(scene, {.on_cut = [&](const Cut& cut) { cuts.push_back(cut); }}, library_device());
-        simulation.step();
 /// Members of ensembles have those of their scenes alone.
 TEST_F(ForceFieldsOnceTest, MembersHaveThem) {
     for (const SolverMethod method : test::all_methods) {
@@ -256,6 +256,32 @@ TEST_F(ForceFieldsOnceTest, MembersHaveThem) {
     EXPECT_THROW(Ensemble({hanging_strip(), hanging_strip()}, {}, library_device()).tensions(0), Error);
 }
 
+/// Rigid springs have no law, and relaxation keeps no multiplier of them.
+TEST_F(ForceFieldsOnceTest, WhatNobodyKnowsIsNoNumber) {
+    SceneDescription scene = level_sheet(0, 3);
+    scene.cloths[0].stiffness.rigid = true;
+    const FieldsOfFrame frame = last_frame(scene, SolverMethod::relax, 4, 2);
+    EXPECT_TRUE(std::isnan(frame.tensions[0]));
+    EXPECT_EQ(frame.tensions[4 * 80], 0) << "the last particle is the first of no spring";
+}
+
+int count(const std::vector<std::uint8_t>& springs) {
+    return std::accumulate(springs.begin(), springs.end(), 0,
+                           [](int sum, std::uint8_t bits) { return sum + std::popcount(bits); });
+}
+
+TEST_F(ForceFieldsOnceTest, SpringsThatAreCutAreGone) {
+    for (const SolverMethod method : test::all_methods) {
+        SceneDescription scene = test::by_method(hanging_strip(), method, 12);
+        scene.forces = scene.force_fields = true;
+        scene.time.frame_count = 60;
+        Cutter blade;
+        blade.triangle = {{{-1, -0.26, -1}, {2, -0.26, -1}, {0, -0.26, 2}}};
+        blade.begin = blade.end = 0.05;
+        scene.cutters = {blade};
+        std::vector<Cut> cuts;
+        Simulation simulation(scene, {.on_cut = [&](const Cut& cut) { cuts.push_back(cut); }}, library_device());
+        simulation.step();
         const int before = count(simulation.spring_bits(0));
         EXPECT_EQ(before, 3 * 13 + 4 * 12 + 2 * 3 * 12);
         while (simulation.step()) {

@@ -103,7 +103,10 @@ void run_self_impulses(const TwinPlace& where) {
         const float inverse_mass = state[Field::position][i].w;
         if (meeting->before[place].w != self_pushed || !(inverse_mass > 0.0f)) continue;
         const vec3 motion = given_by_contact(xyz(meeting->velocities[place]), xyz(state[Field::displacement][i]));
-        impulses.add(impulse_cloths, 0, impulse_of_motion(motion, reciprocal(inverse_mass)), impulses.units());
+        const vec3 impulse = impulse_of_motion(motion, reciprocal(inverse_mass));
+        impulses.add(impulse_cloths, 0, impulse, impulses.units());
+        if (std::vector<vec4>& sums = state[Field::contact_impulses]; !sums.empty())
+            sums[i] = texel(more_impulse(xyz(sums[i]), impulse));
     }
 }
 

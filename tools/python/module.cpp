@@ -332,8 +332,9 @@ void define_arrays(py::class_<PySimulation>& simulation) {
         "left bear, pulled above 0; needs \"forces\": \"fields\" in the scene; as positions.",
         4);
     add("contact_forces", &FinishedFrame::contact_forces,
-        "float32 [row, column, 3], N: the mean force of all colliders in the frame; needs \"forces\": \"fields\"; as "
-        "positions.");
+        "float32 [row, column, 3], N: the mean force of contact with colliders and cloth in the frame; needs "
+        "\"forces\": "
+        "\"fields\"; as positions.");
     simulation
         .def("picture", &picture,
              "uint8 [height, width, 4], sRGB and 255, rows from the top; needs draw=True. No copy, as positions.")

@@ -101,7 +101,7 @@ struct FinishedFrame {
     /// particle is the first of, N, pulled above 0: to the right (column + 1), down (row + 1), down right and down
     /// left; 0 where there is none, NaN where the method keeps none (rigid springs of `relax`).
     std::vector<std::span<const float>> tensions;
-    /// Likewise: the mean force of all colliders on the particle in the frame, N, x y z and 0.
+    /// Likewise: the mean force of contact, with colliders and cloth, on the particle in the frame, N, x y z and 0.
     std::vector<std::span<const float>> contact_forces;
     std::vector<ClothStatistics> statistics;  ///< per cloth, when wanted
     std::vector<BodyState> bodies;            ///< of every body that has a mass
