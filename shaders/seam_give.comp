@@ -8,6 +8,7 @@
 #include "include/bdf2.h"
 #include "include/push.h"
 #include "include/seam.h"
+#include "include/verlet.h"
 
 layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(SeamPush)
@@ -19,6 +20,10 @@ layout(constant_id = 4) const bool sews_closing = false;    // some seams close
 layout(constant_id = 6) const bool sews_weight = false;     // the forces have the change of gravity
 layout(constant_id = 5) const bool sews_leads = false;      // those between two places count by what they change
 layout(constant_id = 7) const bool sews_orders = false;     // the order of the line method's steps alone
+layout(constant_id = 8) const bool sews_rips = false;       // some seams rip
+layout(constant_id = 9) const bool sews_pulls = false;      // what moves the particles pulls at seams
+layout(constant_id = 10) const bool sews_ends = false;      // at a frame's end, before places come apart
+layout(constant_id = 11) const bool second_order = false;   // substeps may be BDF2
 layout(set = 0, binding = 0, std430) readonly buffer SewnParticles { SewnParticle sewn_particles[]; };
 layout(set = 0, binding = 1, std430) buffer SewnPlaces { SewnPlace sewn_places[]; };
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D position;
@@ -30,6 +35,21 @@ layout(set = 0, binding = 7, std430) readonly buffer SewnLeads { vec4 sewn_leads
 layout(set = 0, binding = 8, std430) readonly buffer Openings { SeamOpening openings[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Wind { vec4 wind[]; };
 layout(set = 0, binding = 10, r32ui) uniform readonly uimage2D line_control;
+layout(set = 0, binding = 11, rgba32f) uniform readonly image2D seam_loads;
+
+/// Adds what pulls a particle to the load on its seam.
+void add_load(SewnParticle particle, int place, vec3 pull) {
+    if (particle.carried.y == 0.0f) return;
+    sewn_places[place].load = seam_load(sewn_places[place].load, pull, particle.carried.z);
+}
+
+/// Returns the force that has moved a particle of this inverse mass by so much.
+vec3 pull_of(vec3 moved, float inverse_mass) {
+    float force = push.force.x;
+    if (second_order)
+        if (imageLoad(line_control, ivec2(control_order, 0)).x == 2u) force = push.force.y;
+    return sewn_pull(moved, inverse_mass, force);
+}
 
 bool is_between(SewnParticle particle) { return sews_between && particle.between.x >= 0; }
 
@@ -37,6 +57,7 @@ void give_vector(SewnParticle particle, int place) {
     vec4 own = imageLoad(wind_force, particle.at.xy), sum = sewn_places[place].vector;
     if (sews_weight)
         own = without_carried(own, wind[push.weather].xyz, particle.carried.x, imageLoad(position, particle.at.xy).w);
+    if (sews_pulls) add_load(particle, place, own.xyz);
     if (is_between(particle)) own = own_force(own, particle.weights.w);
     if (particle.weights.z != 0.0f)
         sum = own;
@@ -65,6 +86,7 @@ void give_mean(SewnParticle particle, int own, int place) {
     if (push.stage != seam_predicted) share = leads ? 1.0f : 0.0f;
     vec4 moved = imageLoad(displacement, particle.at.xy), mean = sewn_places[place].displacement;
     vec3 lost = imageLoad(displacement_remainder, particle.at.xy).xyz, way = moved.xyz;
+    if (sews_pulls) add_load(particle, place, pull_of(moved.xyz, particle.weights.y));
     if (sews_leads) {
         if (is_between(particle)) way = sewn_lead(way, sewn_leads[own].xyz);
     }
@@ -96,6 +118,10 @@ float give_touched(SewnParticle particle, int place, SewnPlace begun, int count,
 void give_solved(SewnParticle particle, int own, int place, SewnPlace begun) {
     vec4 mean = sewn_places[place].displacement;
     vec3 moved = imageLoad(displacement, particle.at.xy).xyz;
+    if (sews_pulls)
+        add_load(particle, place,
+                 pull_of(sewn_lead(moved, begun.displacement.xyz),
+                         dragged_weight(particle.weights.y, begun.displacement.w)));
     if (sews_leads) {
         if (is_between(particle)) moved = sewn_lead(moved, sewn_leads[own].xyz);
     }
@@ -116,6 +142,11 @@ void give_order() {
     sewn_places[push.joint].control = uvec4(joint.order, joint.wrong_lines, joint.hold, 0u);
 }
 
+/// As a frame ends, what comes apart has to know where it is.
+void give_end(SewnParticle particle, int place) {
+    if (particle.between.w == 1) sewn_places[place].position = imageLoad(position, particle.at.xy);
+}
+
 void main() {
     int own = int(gl_GlobalInvocationID.x);
     if (own >= push.particle_count) return;
@@ -125,11 +156,17 @@ void main() {
     }
     int place = sewn_particles[own].at.z, count = sewn_particles[own].at.w;
     if (count == 0) return;
+    if (sews_rips)
+        if (imageLoad(seam_loads, sewn_particles[own].at.xy).w != 0.0f) return;
     SewnPlace begun = sewn_places[place];
     float farthest = -1.0f;
     for (int k = 0;;) {
         SewnParticle particle = sewn_particles[own + k];
-        if (sews_vectors)
+        if (sews_rips)
+            if (push.first == 1 && particle.weights.z != 0.0f) sewn_places[place].load = vec4(0.0f);
+        if (sews_ends)
+            give_end(particle, place);
+        else if (sews_vectors)
             give_vector(particle, place);
         else if (sews_predicted)
             give_mean(particle, own + k, place);

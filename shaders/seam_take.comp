@@ -14,6 +14,8 @@ layout(constant_id = 1) const bool sews_predicted = false;
 layout(constant_id = 2) const bool sews_touched = false;
 layout(constant_id = 3) const bool sews_between = false;
 layout(constant_id = 4) const bool sews_closing = false;
+layout(constant_id = 7) const bool sews_rips = false;
+layout(constant_id = 9) const bool sews_ends = false;
 layout(set = 0, binding = 0, std430) readonly buffer SewnParticles { SewnParticle sewn_particles[]; };
 layout(set = 0, binding = 1, std430) readonly buffer SewnPlaces { SewnPlace sewn_places[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D position;
@@ -24,6 +26,7 @@ layout(set = 0, binding = 6, rgba32f) uniform readonly image2D wind_force_in;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D wind_force_out;
 layout(set = 0, binding = 8, std430) writeonly buffer SewnLeads { vec4 sewn_leads[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Openings { SeamOpening openings[]; };
+layout(set = 0, binding = 10, rgba32f) uniform image2D seam_loads;
 
 bool is_between(SewnParticle particle) { return sews_between && particle.between.x >= 0; }
 
@@ -65,10 +68,25 @@ vec3 particle_at(SewnParticle particle, vec3 place) {
     return place;
 }
 
+/// As a frame ends, a place whose seam does not bear its load comes apart: its particles have masses of their own again.
+void rip(SewnParticle particle) {
+    if (particle.carried.y == 0.0f) return;
+    SewnPlace place = sewn_places[particle.at.z];
+    vec4 load = seam_load_of(place.load, push.share, particle.carried.y);
+    imageStore(seam_loads, particle.at.xy, load);
+    if (load.w != 0.0f) imageStore(position, particle.at.xy, vec4(place.position.xyz, particle.carried.w));
+}
+
 void main() {
     int own = int(gl_GlobalInvocationID.x);
     if (own >= push.particle_count) return;
     SewnParticle particle = sewn_particles[own];
+    if (sews_rips)
+        if (imageLoad(seam_loads, particle.at.xy).w != 0.0f) return;
+    if (sews_ends) {
+        rip(particle);
+        return;
+    }
     if (sews_vectors) {
         if (particle.between.y == 1) take_vector(particle);
         return;

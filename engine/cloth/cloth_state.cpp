@@ -240,6 +240,8 @@ std::vector<FieldRow> other_rows() {
         {Field::sewn_leads, "sewn leads", buffer, layout_of<glsl::vec4>(), frame,
          [](Context c) { return lies_between(c.cloth.sewn); },
          [](Context c) { return FieldExtent{c.cloth.sewn.size()}; }},
+        {Field::seam_loads, "seam loads", image, vector, state, [](Context c) { return rips(c.cloth.sewn); },
+         particles},
     };
 }
 

@@ -82,8 +82,9 @@ enum class Field : std::uint8_t {
     pin_motions,       ///< motion of every such pin in every substep
     sewn_particles,    ///< ClothGeometry::sewn
     sewn_leads,        ///< by entry of that list, m: by how much a particle between two places moves before this one
+    seam_loads,        ///< of particles at seams that rip, xyz: what it bears there (seam_types.h), N; w: 1 = it ripped
 };
-inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::sewn_leads) + 1;
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::seam_loads) + 1;
 
 /// What a frame does beside simulating, since some fields exist for it alone.
 struct FrameNeeds {

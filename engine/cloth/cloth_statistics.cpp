@@ -1,6 +1,8 @@
 #include "cloth/cloth_statistics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/vectors.h"
 #include "cloth/forces.h"
@@ -124,6 +126,18 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
     statistics.non_finite_count = record.counts.x;
     statistics.first_non_finite = record.counts.x > 0 ? record.counts.y : 0;
     return statistics;
+}
+
+SeamStatistics seam_statistics(const ClothModel& cloth, std::span<const std::byte> loads) {
+    SeamStatistics all;
+    for (const Sewn& each : cloth.sewn) {
+        glsl::vec4 load;
+        std::memcpy(&load, &loads[each.particle * sizeof load], sizeof load);
+        if (load.w != 0) ++all.ripped;
+        if (load.w != 0 || each.seam == 0) continue;
+        all.load = std::max(all.load, std::hypot(double{load.x}, double{load.y}, double{load.z}) / each.seam);
+    }
+    return all;
 }
 
 }  // namespace drape

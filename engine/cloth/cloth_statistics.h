@@ -26,4 +26,7 @@ ClothStatistics cloth_statistics(const SimulationModel& model, const ClothModel&
                                  const glsl::StatisticsRecord& record, std::uint32_t frame = 1,
                                  std::span<const std::byte> impulses = {});
 
+/// Returns what seams that rip bear at a cloth, from Field::seam_loads as a frame has left it.
+SeamStatistics seam_statistics(const ClothModel& cloth, std::span<const std::byte> loads);
+
 }  // namespace drape

@@ -125,13 +125,33 @@ struct SeamStep {
     int stage;
 };
 
+/// Returns the forces that move an inner particle of a cloth by a metre in a substep, N: backward Euler and BDF2.
+glsl::vec2 forces_of(const ClothModel& cloth) {
+    for (const MethodStep& step : cloth.scheme.prediction) {
+        if (const auto* both = std::get_if<glsl::PredictPush>(&step.constants))
+            return {1 / both->force_step.x, 1 / both->force_step.y};
+        if (const auto* force = std::get_if<glsl::ForcePush>(&step.constants)) return {1 / force->force_step, 0};
+        if (const auto* force = std::get_if<glsl::ExplicitPush>(&step.constants)) return {1 / force->force_step, 0};
+    }
+    return {};
+}
+
+/// Returns whether a stage is the frame's first that adds to the loads on seams.
+bool begins_loads(const SimulationModel& model, std::uint32_t substep, int stage) {
+    const bool by_air = model.windy && model.method().iterates();
+    return substep == 0 && stage == (by_air ? glsl::seam_forces : glsl::seam_predicted);
+}
+
 void add_seam(const SimulationModel& model, std::uint32_t substep, const SeamStep& step, std::vector<Step>& steps) {
     const auto count = static_cast<int>(model.cloths[step.cloth].sewn.size());
     if (count == 0) return;
     const std::size_t weather = first_weather(model, model.cloths[step.cloth].member, substep);
     const auto opening = static_cast<int>(substep * model.closings.size());
+    const int first = begins_loads(model, substep, step.stage) ? 1 : 0;
+    const float share = 1.0f / static_cast<float>(model.scene.solver.substeps);
     steps.push_back({step.kind, step.cloth, substep, 0,
-                     glsl::SeamPush{count, step.stage, opening, static_cast<int>(weather) + 1, -1, 0, 0, 0}});
+                     glsl::SeamPush{count, step.stage, opening, static_cast<int>(weather) + 1,
+                                    forces_of(model.cloths[step.cloth]), -1, 0, 0, first, share, 0}});
 }
 
 /// Lets all cloths give, and then take.
@@ -149,7 +169,7 @@ void join_orders(const SimulationModel& model, std::uint32_t substep, const std:
         if (joints[cloth] < 0) continue;
         const auto& predicts = std::get<glsl::PredictPush>(model.cloths[cloth].scheme.prediction.front().constants);
         const int begins = begun.insert(joints[cloth]).second ? 1 : 0;
-        const glsl::SeamPush push{1, glsl::seam_orders, 0, 0, joints[cloth], begins, predicts.most_wrong, 0};
+        const glsl::SeamPush push{1, glsl::seam_orders, 0, 0, {}, joints[cloth], begins, predicts.most_wrong, 0, 0, 0};
         steps.push_back({StepKind::seam_give, cloth, substep, 0, push});
     }
 }
@@ -362,6 +382,14 @@ void add_strikes(const SimulationModel& model, std::uint32_t substep, std::vecto
             {StepKind::body_strike, cloth, substep, 0, body_strike_push(model, model.cloths[cloth], substep)});
 }
 
+/// Lets seams come apart that do not bear what they bore in the frame.
+void add_rips(const SimulationModel& model, std::vector<Step>& steps) {
+    for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
+        for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+            if (rips(model.cloths[cloth].sewn))
+                add_seam(model, model.scene.solver.substeps, {kind, cloth, glsl::seam_ripped}, steps);
+}
+
 /// Looks for the largest impulse, after all of a substep has added its own.
 void add_worst_impulses(const SimulationModel& model, std::uint32_t substep, std::vector<Step>& steps) {
     if (!model.scene.worst_forces) return;
@@ -392,6 +420,7 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
         add_worst_impulses(model, substep, steps);
     }
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
+    add_rips(model, steps);
     add_momenta(model, 1, steps);
     return steps;
 }
@@ -401,7 +430,8 @@ std::vector<Step> normal_steps(const SimulationModel& model) {
     for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             if (const auto count = static_cast<int>(model.cloths[cloth].sewn.size()); count > 0)
-                steps.push_back({kind, cloth, 0, 0, glsl::SeamPush{count, glsl::seam_normals, 0, 0, -1, 0, 0, 0}});
+                steps.push_back({kind, cloth, 0, 0,
+                                 glsl::SeamPush{count, glsl::seam_normals, 0, 0, {}, -1, 0, 0, 0, 0, 0}});
     return steps;
 }
 

@@ -52,6 +52,7 @@ struct Station {
     std::map<std::size_t, double> mass_by_cloth;
     Vec3 start{}, velocity{};  ///< m, all gaps being closed; m/s
     bool held = false;
+    SewnRip rip;
     std::size_t leads = 0;  ///< the entry whose motion is the station's
 };
 
@@ -137,6 +138,7 @@ void Stations::measure(const SewnStation& sewn, Station& station) {
         station.held = station.held || (!entry.between && holding_pin(scene_, entry.member));
     }
     station.leads = leading(scene_, station.entries);
+    station.rip = sewn.rip;
     station.velocity = times(1 / station.mass, momentum);
     // What closes keeps its centre of mass.
     station.start = !station.held && sewn.close > 0 ? times(1 / station.mass, moment)
@@ -166,6 +168,14 @@ Sewn Stations::sewn_of(const Entry& entry, std::size_t index, const Asked& asked
     sewn.weights = {0, single(masses_.inner(asked.cloth) / all), 0, single(entry.weight)};
     sewn.parts = {0, single(own / station.mass_by_cloth.at(asked.cloth)), 0, 0};
     sewn.carried = {single(all - own), 0, 0, 0};
+    if (const SewnRip& rip = station.rip; rip.load > 0) {
+        // Two are sewn there, whose forces T part them with (m_b T_a - m_a T_b)/(m_a + m_b).
+        const double sign = entry.member == station.entries.front().member ? 1 : -1;
+        made.seam = rip.length;
+        sewn.carried.y = single(rip.load);
+        sewn.carried.z = single(sign * (station.mass - own) / station.mass);
+        sewn.carried.w = single(masses_.inner(asked.cloth) / own);
+    }
     if (entry.between) {
         const auto& [group, stations, weights, close, seam] = *entry.between;
         const std::size_t own_side = stations[0] == index ? 0 : 1;
@@ -217,6 +227,10 @@ void Stations::add_station(std::size_t index, const Asked& asked, std::vector<Se
 
 bool lies_between(const std::vector<Sewn>& sewn) {
     return std::ranges::any_of(sewn, [](const Sewn& each) { return each.sewn.between.x >= 0; });
+}
+
+bool rips(const std::vector<Sewn>& sewn) {
+    return std::ranges::any_of(sewn, [](const Sewn& each) { return each.seam > 0; });
 }
 
 std::vector<double> closing_times(const SceneDescription& scene) {

@@ -16,11 +16,14 @@ struct Sewn {
     Vec3 velocity;      ///< m/s at the start: the mean of those at the place, by their masses
     bool held;          ///< a pin holds the place at the start
     double part;        ///< what a step of it alone counts for the place
+    double seam = 0;    ///< m: the length of seams that rip that is its place's; 0: it does not come apart
     glsl::vec4 kick{};  ///< m: what its cloth's loads change of its displacement before the start
 };
 
 /// Returns whether some of a cloth's sewn particles lie between two places.
 bool lies_between(const std::vector<Sewn>& sewn);
+/// Returns whether some of their places come apart under a load.
+bool rips(const std::vector<Sewn>& sewn);
 /// Returns the times, s, at which seams of the scene have closed, ascending; empty: all are closed from the start on.
 std::vector<double> closing_times(const SceneDescription& scene);
 /// Returns what is left of a gap at a time, s: 1 at the start, 0 from `closed` on, with a speed that begins and ends at

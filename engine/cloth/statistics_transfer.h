@@ -44,6 +44,11 @@ void transfer_statistics(Archive& archive, ClothStatistics& s) {
             s.largest_speed, s.iteration_count, s.non_finite_count, s.first_non_finite, s.farthest, s.fastest,
             s.deepest, s.most_stretched);
     transfer_forces(archive, s.forces);
+    std::optional<double> load;
+    std::uint32_t ripped = s.seams ? s.seams->ripped : 0;
+    if (s.seams) load = s.seams->load;
+    archive(load, ripped);
+    s.seams = load ? std::optional<SeamStatistics>({*load, ripped}) : std::nullopt;
 }
 
 }  // namespace drape

@@ -20,7 +20,7 @@ std::vector<std::vector<std::uint32_t>> numbered(const SceneDescription& scene) 
     const Sewing sewing = sewing_of(scene);
     if (!sewing.between.empty())
         throw std::invalid_argument("the network of sewn cloths knows no particle that lies between others");
-    for (const auto& [group, close] : sewing.stations)
+    for (const auto& [group, close, rip] : sewing.stations)
         for (std::size_t k = 1; k < group.size(); ++k) leaders[group[k].cloth][group[k].particle] = group.data();
     std::uint32_t count = 0;
     for (std::size_t cloth = 0; cloth < numbers.size(); ++cloth)

@@ -50,6 +50,10 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
         values[fmt::format("{}/angular_momentum_{}_kg_m2_s", cloth, axis)] = statistics.angular_momentum[k];
     }
     for (const ForceOnCloth& each : statistics.forces) add_force(values, cloth, each);
+    if (statistics.seams) {
+        values[cloth + "/seam_load_n_per_m"] = statistics.seams->load;
+        values[cloth + "/seam_ripped"] = statistics.seams->ripped;
+    }
     values[cloth + "/angular_error_kg_m2_s"] = length(statistics.angular_error);
     values[cloth + "/distance_max_m"] = statistics.largest_distance;
     values[cloth + "/speed_max_m_s"] = statistics.largest_speed;
@@ -200,6 +204,8 @@ std::string RunStatistics::note(const FrameValues& values) const {
     }
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
+    if (const auto ripped = worst(values, "/seam_ripped"); ripped && *ripped > 0)
+        parts.push_back(fmt::format("{:.0f} places of a seam ripped", *ripped));
     if (values.contains("asleep")) parts.push_back("asleep");
     if (const auto drift = energy_drift(values))
         parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, first_->first));

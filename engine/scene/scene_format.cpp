@@ -304,6 +304,10 @@ const Object<Seam> seam{
         {"close", &Seam::close, number(not_negative),
          "Seconds from the start in which sides that start apart are drawn together, smoothly, about the centre of "
          "mass of what meets, or towards what a pin holds; 0: they start together."},
+        {"rip", &Seam::rip, optional(number(positive)),
+         "N/m: what a metre of the seam bears, on the flat cloth. Places whose load, averaged over a frame, is more "
+         "come apart at its end, for good. Sides of as many particles, not closed later; without pins on it, and in a "
+         "scene without colliders, self_collision and tethers. Absent: it bears anything."},
     }};
 
 const Object<Cutter> cutter{

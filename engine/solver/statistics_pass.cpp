@@ -25,6 +25,18 @@ std::vector<std::span<const std::byte>> impulse_sums(const ClothLayout& layout, 
     return std::vector<std::span<const std::byte>>(layout.model.cloths.size());
 }
 
+std::string seam_readback_name(const std::string& state) { return state + "/seam loads on the host"; }
+
+/// Returns what each cloth's seams bore in the frame; nothing where none of them rips.
+std::vector<std::span<const std::byte>> seam_loads(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                                   std::uint32_t slot) {
+    std::vector<std::span<const std::byte>> all;
+    for (const ClothModel& cloth : layout.model.cloths)
+        all.push_back(rips(cloth.sewn) ? pool.buffer(seam_readback_name(cloth.name), slot).mapped()
+                                       : std::span<const std::byte>());
+    return all;
+}
+
 std::string iteration_readback_name(const std::string& state) { return state + "/iterations on the host"; }
 
 /// Adds the tension that steps of a method do not keep.
@@ -102,6 +114,9 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     if (model.scene.forces)
         add_image_readback(graph, state.pass_name("impulse readback", "statistics"), state[Field::impulses],
                            impulse_readback_name(state.name));
+    if (rips(state.model->sewn))
+        add_image_readback(graph, state.pass_name("seam readback", "statistics"), state[Field::seam_loads],
+                           seam_readback_name(state.name));
     if (model.adaptive())
         add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
                             glsl::iteration_size_count * sizeof(glsl::uvec4), sizeof(glsl::uvec4),
@@ -111,9 +126,11 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
 std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const graph::ResourcePool& pool,
                                               std::uint32_t slot) {
     const std::vector<std::span<const std::byte>> records = layout.parts(pool, slot, statistics_readback_name),
-                                                  impulses = impulse_sums(layout, pool, slot);
+                                                  impulses = impulse_sums(layout, pool, slot),
+                                                  seams = seam_loads(layout, pool, slot);
     std::vector<StatisticsBytes> all;
-    for (std::size_t cloth = 0; cloth < records.size(); ++cloth) all.push_back({records[cloth], impulses[cloth]});
+    for (std::size_t cloth = 0; cloth < records.size(); ++cloth)
+        all.push_back({records[cloth], impulses[cloth], seams[cloth]});
     return all;
 }
 
@@ -125,6 +142,7 @@ std::vector<ClothStatistics> statistics_from(std::span<const StatisticsBytes> by
         glsl::StatisticsRecord record;
         std::memcpy(&record, own.record.data(), sizeof record);
         all.push_back(cloth_statistics(run, cloth, record, frame, own.impulses));
+        if (frame > 0 && !own.seams.empty()) all.back().seams = seam_statistics(cloth, own.seams);
     }
     return all;
 }

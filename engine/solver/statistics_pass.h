@@ -15,9 +15,10 @@ std::string statistics_readback_name(const std::string& state);
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
 
-/// What the device leaves of a cloth: its record, and the sums of its impulses where the scene wants forces.
+/// What the device leaves of a cloth: its record, and the sums of its impulses where the scene wants forces, what its
+/// seams bore where some rip.
 struct StatisticsBytes {
-    std::span<const std::byte> record, impulses;
+    std::span<const std::byte> record, impulses, seams;
 };
 /// Returns what the slot's last finished frame has left of each cloth.
 std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const graph::ResourcePool& pool,

@@ -61,6 +61,13 @@ bool seam_leads(Place p) {
     return lies_between(p.cloth->model->sewn) && (steps || seam_stage(p) == glsl::seam_solved);
 }
 bool seam_has_vectors(Place p) { return seam_stage(p) == glsl::seam_forces || seam_stage(p) == glsl::seam_normals; }
+bool has_seam_loads(Place p) { return has(p, Field::seam_loads); }
+/// What moves particles at seams pulls at these: springs, air, or by methods that do not iterate whole steps.
+bool seam_pulls(Place p) {
+    const int stage = seam_stage(p);
+    return has_seam_loads(p) && (stage == glsl::seam_solved || stage == glsl::seam_forces ||
+                                 (stage == glsl::seam_predicted && !p.model.method().iterates()));
+}
 /// Contact writes the position and the displacement of the substep before.
 std::uint32_t sews_touched(Place p) {
     const bool moves = seam_stage(p) == glsl::seam_predicted || seam_stage(p) == glsl::seam_touched;
@@ -128,9 +135,12 @@ constexpr ConstantRow constant_rows[] = {
     {"sewn_to_others", [](Place p) { return p.step.push<glsl::PredictPush>().joint >= 0 ? 1u : 0u; }},
     {"sews_between", [](Place p) { return lies_between(p.cloth->model->sewn) ? 1u : 0u; }},
     {"sews_closing", [](Place p) { return p.model.closings.empty() ? 0u : 1u; }},
+    {"sews_ends", [](Place p) { return seam_stage(p) == glsl::seam_ripped ? 1u : 0u; }},
     {"sews_leads", [](Place p) { return seam_leads(p) ? 1u : 0u; }},
     {"sews_orders", [](Place p) { return seam_stage(p) == glsl::seam_orders ? 1u : 0u; }},
     {"sews_predicted", [](Place p) { return seam_moves_all(p) ? 1u : 0u; }},
+    {"sews_pulls", [](Place p) { return seam_pulls(p) ? 1u : 0u; }},
+    {"sews_rips", [](Place p) { return has_seam_loads(p) ? 1u : 0u; }},
     {"sews_touched", sews_touched},
     {"sews_vectors", [](Place p) { return seam_has_vectors(p) ? 1u : 0u; }},
     {"sews_weight", [](Place p) { return p.model.weighs && seam_stage(p) == glsl::seam_forces ? 1u : 0u; }},

@@ -39,7 +39,7 @@ std::string explicit_label(Place p) {
 }
 std::string seam_words(Place p) {
     constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces",
-                                     "normals",   "begun",    "met",    "orders"};
+                                     "normals",   "begun",    "met",    "orders",  "ripped"};
     return words[p.step.push<glsl::SeamPush>().stage];
 }
 std::string seam_give_label(Place p) { return "seam gives " + seam_words(p); }

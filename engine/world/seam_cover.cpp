@@ -62,7 +62,7 @@ void SeamCover::lead(const SceneDescription& scene) {
 void SeamCover::leave_out(const SceneDescription& scene) {
     std::map<SewnMember, double> closed;
     std::map<SewnMember, bool> between;
-    for (const auto& [group, close] : sewing.stations)
+    for (const auto& [group, close, rip] : sewing.stations)
         for (const SewnMember& member : group) closed[member] = close;
     for (const SewnBetween& each : sewing.between)
         for (const SewnMember& member : each.group) between[member] = true;

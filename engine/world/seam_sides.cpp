@@ -86,6 +86,7 @@ SeamRun measured(const Cloth& cloth, std::vector<std::uint32_t> particles) {
                            way_between(flat_place(cloth, run.particles[k - 1]), flat_place(cloth, run.particles[k])));
     const double whole = run.ways.back();
     for (double& way : run.ways) way /= whole;
+    run.length = whole;
     run.ways.back() = 1;
     return run;
 }

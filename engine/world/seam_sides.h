@@ -14,6 +14,7 @@ namespace drape {
 struct SeamRun {
     std::vector<std::uint32_t> particles;  ///< row * columns + column
     std::vector<double> ways;              ///< of the side's length on the flat cloth, what lies before each: 0 .. 1
+    double length = 0;                     ///< m, of that
 };
 
 /// Returns the other order of a side.

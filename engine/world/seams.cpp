@@ -31,6 +31,7 @@ struct Joint {
 /// What a seam joins.
 struct Stitches {
     std::vector<std::array<SewnMember, 2>> pairs;
+    std::vector<double> lengths;  ///< m: by pair, the seam's length that is its own
     std::vector<Joint> joints;
     double gap = 0;      ///< m: the largest
     double widest = 0;   ///< the largest over what is allowed
@@ -58,6 +59,7 @@ class Stitcher {
             const SewnMember follower{follows_, fine.particles[k]};
             if (count == last + 1) {
                 pair({leads_, coarse.particles[k]}, follower);
+                made_.lengths.push_back((length_at(coarse, k) + length_at(fine, k)) / 2);
                 continue;
             }
             while (at + 1 < last && coarse.ways[at + 1] <= fine.ways[k]) ++at;
@@ -67,6 +69,11 @@ class Stitcher {
     }
 
   private:
+    /// Returns half of the length between a particle's neighbours on a side.
+    static double length_at(const SeamRun& run, std::size_t k) {
+        const std::size_t last = run.ways.size() - 1;
+        return run.length * (run.ways[std::min(k + 1, last)] - run.ways[k > 0 ? k - 1 : 0]) / 2;
+    }
     void pair(const SewnMember& leader, const SewnMember& follower) {
         made_.pairs.push_back({leader, follower});
         measure(leader, place_of(scene_, follower), place_of(scene_, leader), seam_tolerance);
@@ -123,6 +130,8 @@ std::optional<SeamFault> fault_of_sides(const SceneDescription& scene, const Sea
     }
     if (seam.a == seam.b) return SeamFault{"/b", "expected another side than a, got the same"};
     if (!(seam.close >= 0 && std::isfinite(seam.close))) return SeamFault{"/close", "expected a time of 0 or more"};
+    if (seam.rip && !(*seam.rip > 0 && std::isfinite(*seam.rip))) return SeamFault{"/rip", "expected a load above 0"};
+    if (seam.rip && seam.close > 0) return SeamFault{"/rip", "expected no rip of a seam that is closed later"};
     return std::nullopt;
 }
 
@@ -170,7 +179,7 @@ bool is_held(const SceneDescription& scene, const SewnGroup& group) {
 /// Returns a fault where a pin that moves or lets go is not the only one at a sewn place, or pins hold what lies
 /// between places that none holds.
 std::optional<SeamFault> fault_of_pins(const SceneDescription& scene, const Sewing& sewing) {
-    for (const auto& [group, close] : sewing.stations) {
+    for (const auto& [group, close, rip] : sewing.stations) {
         std::size_t held = 0, changing = 0;
         for (const SewnMember& member : group)
             if (const auto pin = holding_pin(scene, member)) {
@@ -203,26 +212,38 @@ class Groups {
         while (led_.at(member) != member) member = led_.at(member);
         return member;
     }
-    void join(const SewnMember& a, const SewnMember& b, double close) {
+    /// `length`: m, of the seam's that is the pair's.
+    void join(const SewnMember& a, const SewnMember& b, const Seam& seam, double length) {
         const SewnMember one = leader_of(a), other = leader_of(b);
-        const double later = std::max({close_[one], close_[other], close});
+        const double later = std::max({close_[one], close_[other], seam.close});
+        SewnRip all = rips_[one];
+        if (one != other) all.load += rips_[other].load, all.length += rips_[other].length;
+        if (seam.rip) all.load += *seam.rip * length, all.length += length;
+        stays_[std::min(one, other)] = stays_[one] || stays_[other] || !seam.rip;
         led_.at(std::max(one, other)) = std::min(one, other);
         close_[std::min(one, other)] = later;
+        rips_[std::min(one, other)] = all;
     }
     struct Group {
         SewnGroup members;
         double close = 0;
+        SewnRip rip{};
     };
     std::map<SewnMember, Group> all() {
         std::map<SewnMember, Group> groups;
         for (const auto& [member, ignored] : led_) groups[leader_of(member)].members.push_back(member);
-        for (auto& [leader, group] : groups) group.close = close_[leader];
+        for (auto& [leader, group] : groups) {
+            group.close = close_[leader];
+            if (!stays_[leader]) group.rip = rips_[leader];
+        }
         return groups;
     }
 
   private:
     std::map<SewnMember, SewnMember> led_;  ///< by particle, one that it is sewn to, in the end its leader
     std::map<SewnMember, double> close_;    ///< by leader
+    std::map<SewnMember, SewnRip> rips_;    ///< likewise
+    std::map<SewnMember, bool> stays_;      ///< likewise: whether a seam joins it that does not rip
 };
 
 /// Makes one sewing of all seams, and says where that cannot be.
@@ -234,8 +255,9 @@ class Sewer {
         std::vector<Stitches> all;
         for (const Seam& seam : scene_.seams) all.push_back(stitches_of(scene_, seam));
         for (std::size_t k = 0; k < all.size(); ++k)
-            for (const auto& [one, other] : all[k].pairs)
-                if (has_cell(one) && has_cell(other)) groups_.join(one, other, scene_.seams[k].close);
+            for (std::size_t pair = 0; pair < all[k].pairs.size(); ++pair)
+                if (const auto& [one, other] = all[k].pairs[pair]; has_cell(one) && has_cell(other))
+                    groups_.join(one, other, scene_.seams[k], all[k].lengths.empty() ? 0 : all[k].lengths[pair]);
         for (std::size_t k = 0; k < all.size(); ++k)
             for (const Joint& joint : all[k].joints)
                 if (has_cell(joint.follower) && has_cell(joint.leaders[0]) && has_cell(joint.leaders[1]))
@@ -283,7 +305,7 @@ class Sewer {
         for (auto& [leader, group] : groups) {
             if (laid_.contains(leader) || (group.members.size() == 1 && !leads.contains(leader))) continue;
             stations[leader] = sewing_.stations.size();
-            sewing_.stations.push_back({group.members, group.close});
+            sewing_.stations.push_back({group.members, group.close, group.rip});
         }
         for (const auto& [follower, laid] : laid_) {
             const Groups::Group& group = groups.at(follower);
@@ -346,6 +368,7 @@ std::vector<SeamFault> seam_faults(const SceneDescription& scene) {
         const Sewing sewing = std::move(sewer).take();
         fault = fault_of_pins(scene, sewing);
         if (!fault) fault = fault_of_bodies(scene, sewing);
+        if (!fault) fault = fault_of_rips(scene, sewing);
     }
     if (fault) faults.push_back(std::move(*fault));
     return faults;

@@ -25,10 +25,17 @@ struct SewnMember {
 /// Particles that are one, in ascending order; the first one is the leader, the others follow it.
 using SewnGroup = std::vector<SewnMember>;
 
+/// What a place bears before it comes apart.
+struct SewnRip {
+    double load = 0;    ///< N; 0: anything
+    double length = 0;  ///< m: of the seams that is the place's
+};
+
 /// A place where particles are sewn. It may have one alone, which others lie between.
 struct SewnStation {
     SewnGroup group;
     double close = 0;  ///< s: when its particles have come together; 0: they start together
+    SewnRip rip{};
 };
 
 /// Particles that are one and lie on the straight line between two stations.

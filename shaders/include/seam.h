@@ -66,6 +66,25 @@ SHARED vec4 own_force(vec4 sum, float part) {
     return own;
 }
 
+/// Returns the force, N, that has moved a particle of this inverse mass by so much in a substep. `force`: of SeamPush.
+SHARED vec3 sewn_pull(vec3 moved, float inverse_mass, float force) {
+    precise vec3 pull = moved * (force / inverse_mass);
+    return pull;
+}
+
+/// Adds a side's force to the load on a seam.
+SHARED vec4 seam_load(vec4 sum, vec3 pull, float counts) {
+    precise vec4 more = vec4(sum.x + pull.x * counts, sum.y + pull.y * counts, sum.z + pull.z * counts, 0.0f);
+    return more;
+}
+
+/// Returns the mean of a frame's loads on a seam; w: 1 where the seam does not bear it.
+SHARED vec4 seam_load_of(vec4 sum, float share, float most) {
+    precise vec3 mean = vec3(sum.x * share, sum.y * share, sum.z * share);
+    precise float limit = most * most;
+    return vec4(mean.x, mean.y, mean.z, ordered_dot(mean, mean) > limit ? 1.0f : 0.0f);
+}
+
 /// Adds a normal to that of a seam, unless the cloths make an edge there: beyond a right angle each keeps its own.
 SHARED vec3 sewn_normal(vec3 sum, vec3 normal) {
     precise vec3 more = sum + normal;

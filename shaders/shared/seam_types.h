@@ -10,19 +10,22 @@ namespace drape::glsl {
 
 /// What a cloth's sewn particles hand on: how the prediction or the pins moved them, whether pins hold them, how the
 /// springs moved them, how contact with colliders did, the force on them, their normals, how they moved before a
-/// substep, and how contact between cloths moved them. Cloths by the line method also hand on which order of step they
-/// may take.
+/// substep, how contact between cloths moved them, and, as a frame ends, where they come apart. Cloths by the line method
+/// also hand on which order of step they may take.
 const int seam_predicted = 0, seam_released = 1, seam_solved = 2, seam_touched = 3, seam_forces = 4, seam_normals = 5,
-          seam_begun = 6, seam_met = 7, seam_orders = 8;
+          seam_begun = 6, seam_met = 7, seam_orders = 8, seam_ripped = 9;
 
 struct SeamPush {
     int particle_count;  // the cloth's, at seams
     int stage;
     int opening;      // the first of the substep's openings
     int weather;      // where in `wind` the substep's change of gravity is
+    vec2 force;       // N that move an inner particle by a metre in a substep, of backward Euler and of BDF2
     int joint;        // the place that has the order of steps of all cloths that are sewn together
     int begins;       // 1 = the cloth is the first of these
     uint most_wrong;  // of the cloth's lines, as in PredictPush
+    int first;        // 1 = the first of the frame that adds to the loads on seams
+    float share;      // of a substep in a frame
     int unused;
 };
 
@@ -39,7 +42,8 @@ struct SewnParticle {
                    // of its own cloth there; z: the same in the other place's; w: 1 = some of the cloth's particles at
                    // the place lie between two
     vec4 gap;      // xyz: m from the place to where it starts; w: how much of it is the other place's
-    vec4 carried;  // x: kg of others' that count as its own in its cloth; yzw: 0
+    vec4 carried;  // x: kg of others' that count as its own in its cloth; y: N at which the place comes apart, 0: it
+                   // does not; z: what its cloth's force on it counts in the load on the seam; w: its own inverse mass
 };
 
 /// How much of their gaps is left of the particles at seams that close alike, when a substep begins and ends.
@@ -55,6 +59,7 @@ struct SewnPlace {
     vec4 before;        // m: the displacement of the substep before
     vec4 vector;        // N: the sum of the forces; w: their drag, N/m. At a frame's end the sum of the normals
     uvec4 control;      // at a joint: the LineControl of the cloths that are sewn together; w: 0
+    vec4 load;          // xyz: N: what the seam has borne in the frame's substeps so far, their sum
 };
 
 #ifdef __cplusplus

@@ -227,6 +227,7 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"SewnExplicit", with(three_panels(explicit_steps), explicit_steps, 12), 5},
         {"SewnBetween", with(unlike_panels(line), line, 4), 5},
         {"SewnClosing", with(unlike_panels(line, 0.06), line, 4), 5},
+        {"SewnRips", with(opening_seam(line, 1), line, 4), 5},
         {"SewnContact", with(folding_panels(line, true), line, 6), 12},
         {"ForcesInFlight", telling_forces(flying(false)), 5},
         {"ForcesOfParting", telling_forces(parting(line, 5)), 0},

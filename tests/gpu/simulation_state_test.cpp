@@ -40,7 +40,7 @@ Seen seen(const FinishedFrame& frame) {
             {s.stretch.rms, s.shear.rms, s.stretch_error_rms, s.stretch_error_max, s.kinetic_energy, s.potential_energy,
              s.elastic_energy, s.momentum[1], s.angular_momentum[2], s.angular_error[0], s.largest_distance,
              s.largest_speed, s.penetration.value_or(0), double(s.iteration_count.value_or(0)),
-             double(s.fastest.value_or(0))});
+             double(s.fastest.value_or(0)), s.seams ? s.seams->load : 0, s.seams ? s.seams->ripped : 0.0});
     return result;
 }
 
@@ -255,19 +255,31 @@ const std::string resting_as_it_starts = R"({"time": {"frames": 25},
               "stiffness": {"stretch": 200, "shear": 50, "bend": 1e-4}, "pins": [{"at": [0, 0]}]}],
   "solver": {"method": "line", "substeps": 4}})";
 
+/// A seam opens from one end on while a corner is pulled.
+constexpr const char* ripping_scene = R"({"time": {"frames": 31}, "image": {"size": [48, 32], "samples": 1},
+  "cloths": [{"name": "a", "grid": [17, 7], "size": [0.5, 0.2], "placement": {"origin": [0, 1, 0]},
+              "stiffness": {"stretch": 500, "shear": 50, "bend": 1e-4}, "pins": [{"edge": "top"}]},
+             {"name": "b", "grid": [17, 7], "size": [0.5, 0.2], "placement": {"origin": [0, 0.8, 0]},
+              "stiffness": {"stretch": 500, "shear": 50, "bend": 1e-4},
+              "loads": [{"box": [[0, 3], [2, 6]], "force": [0, -0.6, 0.4]}]}],
+  "seams": [{"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "top"}, "rip": 4}],
+  "solver": {"method": %s}})";
+const std::string ripping_by_auto = with_method(ripping_scene, "\"auto\"");
+const std::string ripping_by_lines = with_method(ripping_scene, "\"line\", \"substeps\": 8");
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SimulationStateTest,
-    testing::Values(Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene},
-                    Case{"Asleep", sleeping_scene}, Case{"CutByAuto", cut_by_auto.c_str(), true},
-                    Case{"CutByLine", cut_by_line.c_str(), true}, Case{"TornByAuto", torn_by_auto.c_str(), true},
-                    Case{"TornByLine", torn_by_line.c_str(), true}, Case{"Relaxed", relaxed.c_str()},
-                    Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
-                    Case{"Alike", alike_scene, true}, Case{"WeatherByAuto", weather_by_auto.c_str()},
-                    Case{"WeatherByLines", weather_by_lines.c_str()}, Case{"PassedByLines", passed_by_lines.c_str()},
-                    Case{"PassedByAuto", passed_by_auto.c_str()},
-                    Case{"DeformingByAuto", deforming_by_auto.c_str(), true},
-                    Case{"DeformingByLines", deforming_by_lines.c_str(), true},
-                    Case{"RestingAsItStarts", resting_as_it_starts.c_str()}),
+    testing::Values(
+        Case{"ClosedLoop", closed_loop_scene}, Case{"MeetsItself", meeting_scene}, Case{"Asleep", sleeping_scene},
+        Case{"CutByAuto", cut_by_auto.c_str(), true}, Case{"CutByLine", cut_by_line.c_str(), true},
+        Case{"TornByAuto", torn_by_auto.c_str(), true}, Case{"TornByLine", torn_by_line.c_str(), true},
+        Case{"Relaxed", relaxed.c_str()}, Case{"Explicit", explicitly.c_str()}, Case{"ByLines", by_lines.c_str()},
+        Case{"Alike", alike_scene, true}, Case{"WeatherByAuto", weather_by_auto.c_str()},
+        Case{"WeatherByLines", weather_by_lines.c_str()}, Case{"PassedByLines", passed_by_lines.c_str()},
+        Case{"PassedByAuto", passed_by_auto.c_str()}, Case{"DeformingByAuto", deforming_by_auto.c_str(), true},
+        Case{"DeformingByLines", deforming_by_lines.c_str(), true},
+        Case{"RestingAsItStarts", resting_as_it_starts.c_str()}, Case{"RippingByAuto", ripping_by_auto.c_str(), true},
+        Case{"RippingByLines", ripping_by_lines.c_str(), true}),
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {

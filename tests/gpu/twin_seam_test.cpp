@@ -1,4 +1,5 @@
 // Sewn cloths on the device equal their twin bit for bit (lavapipe), and copies of a sewn particle each other.
+#include "cloth/cloth_statistics.h"
 #include "cloth/texels.h"
 #include "support/sewn_scenes.h"
 #include "twin_comparison.h"
@@ -42,6 +43,21 @@ TEST_P(TwinSeamTest, UnlikePanels) {
     compare(scene);
 }
 
+TEST_P(TwinSeamTest, SeamsThatRip) {
+    for (SceneDescription scene : {test::pulled_strip(GetParam(), 60, 3), test::opening_seam(GetParam(), 1)}) {
+        scene.wind.velocity = {1, 0.3, -2};
+        const SimulationModel model(scene);
+        Twin twin(model);
+        for (std::uint32_t frame = 1; frame <= frame_count; ++frame) twin.run_frame(frame);
+        EXPECT_GT(seam_statistics(model.cloths[0], twin.cloth(0).bytes(Field::seam_loads)).ripped, 2u);
+        compare(scene);
+    }
+    SceneDescription ring = tube(GetParam());
+    ring.cloths[0].pins = {test::pin_box(6, 0, 18, 0)};
+    ring.seams[0].rip = 5;
+    compare(ring);
+}
+
 TEST_P(TwinSeamTest, SeamsThatClose) {
     compare(test::unlike_panels(GetParam(), 0.06));
     SceneDescription alike = three_panels(GetParam());
@@ -66,7 +82,7 @@ TEST_P(TwinSeamTest, CopiesOfAParticleStayTheSame) {
         ASSERT_FALSE(stations.empty());
         for (std::uint32_t frame = 1; frame <= frame_count; ++frame) {
             twin.run_frame(frame);
-            for (const auto& [group, close] : stations)
+            for (const auto& [group, close, rip] : stations)
                 for (const SewnMember& member : group) {
                     const auto at = [&](const SewnMember& which, Field field) {
                         return xyz(twin.cloth(which.cloth)[field][which.particle]);

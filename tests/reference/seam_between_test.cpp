@@ -36,7 +36,7 @@ class TiedNetwork {
         const auto at = [&](const SewnMember& member) -> std::vector<std::pair<std::size_t, double>>& {
             return means_[first_[member.cloth] + member.particle];
         };
-        for (const auto& [group, close] : sewing.stations) {
+        for (const auto& [group, close, rip] : sewing.stations) {
             for (const SewnMember& member : group) at(member) = {{free_count_, 1}};
             ++free_count_;
         }
@@ -289,7 +289,7 @@ double widest(const SimulationModel& model, const Twin& twin) {
     const Sewing sewing = sewing_of(model.scene);
     const auto place = [&](const SewnMember& member) { return place_of(twin.cloth(member.cloth), member.particle); };
     double most = 0;
-    for (const auto& [group, close] : sewing.stations)
+    for (const auto& [group, close, rip] : sewing.stations)
         for (const SewnMember& member : group) most = std::max(most, length(minus(place(member), place(group[0]))));
     for (const SewnBetween& each : sewing.between)
         for (const SewnMember& member : each.group) {

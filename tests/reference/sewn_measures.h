@@ -13,6 +13,8 @@
 
 namespace drape::test {
 
+inline std::string name_of(SolverMethod method) { return std::string(named(method).name); }
+
 inline SceneDescription with_method(SceneDescription scene, SolverMethod method, std::uint32_t substeps) {
     scene.solver.method = method;
     scene.solver.substeps = substeps;

@@ -306,7 +306,7 @@ TEST(SceneSchema, OnlyTheseKeysHaveNoDefault) {
         {"ellipsoid", {"path", "mass", "inertia"}},
         {"capsule", {"radii", "path", "mass", "inertia"}},
         {"mesh", {"file", "shell", "spacing", "frames", "path", "mass", "inertia"}},
-        {"seam", {"a", "b"}},
+        {"seam", {"a", "b", "rip"}},
         {"seam_side", {"cloth", "edge", "from", "to"}},
         {"actions", {"controls", "hands", "steps"}},
         {"frame_actions",

@@ -154,5 +154,50 @@ TEST(SeamRules, TellWhatSeamsDoNotGoWith) {
                   "\"a\""});
 }
 
+TEST(SeamRules, TellWhatSeamsThatRipDoNotGoWith) {
+    const auto with = [](const std::string& of_a, const std::string& of_scene, const std::string& of_seam) {
+        return errors_of_seams(
+            R"({"cloths": [{"name": "a", "grid": [5, 5])" + of_a +
+            R"(}, {"name": "b", "grid": [5, 5], "placement": {"origin": [0, -1, 0]}},
+ {"name": "c", "grid": [5, 5], "placement": {"origin": [0, -1, 0]}}])" +
+            of_scene +
+            ",\n"
+            R"("seams": [{"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "top"}, "rip": 100)" +
+            of_seam + "}]}");
+    };
+    using Texts = std::vector<std::string>;
+    EXPECT_EQ(with("", "", ""), Texts{});
+    EXPECT_EQ(with(R"(, "pins": [{"edge": "top"}])", "", ""), Texts{});
+    EXPECT_EQ(with(R"(, "pins": [{"at": [2, 4]}])", "", ""),
+              Texts{"3: /seams/0/rip: expected no pin at a seam that rips, got one of particle [2, 4] of \"a\""});
+    EXPECT_EQ(with("", "", R"(, "close": 1)"),
+              Texts{"3: /seams/0/rip: expected no rip of a seam that is closed later"});
+    EXPECT_EQ(with("", R"(, "colliders": {"planes": [{}]})", ""),
+              Texts{"3: /seams/0/rip: expected no colliders beside a seam that rips"});
+    EXPECT_EQ(with(R"(, "self_collision": true)", "", ""),
+              Texts{"3: /seams/0/rip: expected no self_collision beside a seam that rips"});
+    EXPECT_EQ(with("", R"(, "solver": {"tethers": true})", ""),
+              Texts{"3: /seams/0/rip: expected no tethers beside a seam that rips"});
+    EXPECT_EQ(
+        with("", "", R"(}, {"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "c", "edge": "top"}, "rip": 50)"),
+        Texts{"3: /seams/0/rip: expected two particles at each place of a seam that rips, got 3 at the sewn "
+              "particle [0, 4] of \"a\""});
+    EXPECT_EQ(with("", "", "").size(), 0u);
+}
+
+TEST(Sewing, SharesTheLengthOfASeamThatRips) {
+    const SceneResult read = read_scene_text(R"({"cloths": [{"name": "a", "grid": [5, 5], "size": [2, 1]},
+ {"name": "b", "grid": [5, 5], "size": [2, 1], "placement": {"origin": [0, -1, 0]}}],
+"seams": [{"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "top"}, "rip": 100}]})",
+                                             "s");
+    ASSERT_TRUE(read.scene);
+    const Sewing sewing = sewing_of(*read.scene);
+    ASSERT_EQ(sewing.stations.size(), 5u);
+    for (std::size_t k = 0; k < 5; ++k) {
+        EXPECT_NEAR(sewing.stations[k].rip.length, k % 4 == 0 ? 0.25 : 0.5, 1e-12);
+        EXPECT_NEAR(sewing.stations[k].rip.load, k % 4 == 0 ? 25 : 50, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace drape

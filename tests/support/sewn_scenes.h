@@ -90,6 +90,51 @@ inline SceneDescription tube(SolverMethod method) {
     return scene;
 }
 
+/// A free strip of two panels of unlike density, .2 m wide, sewn across its middle. The lower end of the second is
+/// pulled by a force that grows by so many newtons a second.
+inline SceneDescription pulled_strip(SolverMethod method, double growth, double rip) {
+    SceneDescription scene = sheet(9, 13, 0.2, 0.3, sewn_substeps, 1);
+    scene.solver.method = method;
+    scene.gravity = {};
+    Cloth& upper = scene.cloths[0];
+    upper.name = "upper";
+    upper.placement = {{0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
+    upper.areal_density = 0.5;
+    upper.stiffness = {false, 2000, 0, 0};
+    Cloth lower = upper;
+    lower.name = "lower";
+    lower.areal_density = 0.2;
+    lower.grid = {9, 9};
+    lower.size = {0.2, 0.2};
+    lower.placement.origin = {0, -0.3, 0};
+    lower.loads = {{.particles = {{0, 8}, {8, 8}}, .force_keys = {{0, {0, 0, 0}}, {10, {0, -10 * growth, 0}}}}};
+    scene.cloths.push_back(lower);
+    scene.seams = {{{"upper", SeamEdge::bottom}, {"lower", SeamEdge::top}}};
+    scene.seams[0].rip = rip;
+    return scene;
+}
+
+/// Two panels of a strip 1 m wide, sewn across its middle; the upper edge is held, and the lower one's left end is
+/// pulled out, so that the seam opens from there on.
+inline SceneDescription opening_seam(SolverMethod method, double rip) {
+    SceneDescription scene = sheet(33, 9, 1, 0.25, sewn_substeps, 1);
+    scene.solver.method = method;
+    Cloth& upper = scene.cloths[0];
+    upper.name = "upper";
+    upper.placement = {{-0.5, 1, 0}, {1, 0, 0}, {0, -1, 0}};
+    upper.stiffness = {false, 800, 60, 1e-5};
+    upper.damping = 1;
+    Cloth lower = upper;
+    lower.name = "lower";
+    lower.placement.origin = {-0.5, 0.75, 0};
+    upper.pins = {pin_box(0, 0, 32, 0)};
+    lower.loads = {{.particles = {{0, 4}, {1, 8}}, .force_keys = {{0, {0, 0, 0}}, {1, {0, -4, 2}}}}};
+    scene.cloths.push_back(lower);
+    scene.seams = {{{"upper", SeamEdge::bottom}, {"lower", SeamEdge::top}}};
+    scene.seams[0].rip = rip;
+    return scene;
+}
+
 /// A ground on which sewn cloths that meet themselves and each other fall. `thickness`: in edges of the first one.
 inline void fall_on_ground(SceneDescription& scene, double thickness) {
     const double edge = scene.cloths[0].size[0] / (scene.cloths[0].grid[0] - 1);

@@ -22,15 +22,23 @@ struct Given {
     bool is_between() const { return each.sewn.between.x >= 0; }
 };
 
+bool has_ripped(const TwinPlace& where, std::size_t own) {
+    const std::vector<vec4>& loads = where.state[Field::seam_loads];
+    return !loads.empty() && loads[where.model.sewn[own].particle].w != 0;
+}
+
 template <class Give>
 void for_sewn(const TwinPlace& where, const Give& give) {
     const std::vector<Sewn>& all = where.model.sewn;
     for (std::size_t first = 0; first < all.size(); ++first) {
-        if (all[first].sewn.at.w == 0) continue;
+        if (all[first].sewn.at.w == 0 || has_ripped(where, first)) continue;
         glsl::SewnPlace& place = (*where.state.sewn)[static_cast<std::size_t>(all[first].sewn.at.z)];
         const glsl::SewnPlace begun = place;
         const auto count = static_cast<std::size_t>(all[first].sewn.at.w);
-        for (std::size_t k = 0; k < count; ++k) give(Given{all[first + k], first + k, place, begun, count});
+        for (std::size_t k = 0; k < count; ++k) {
+            if (where.step.push<SeamPush>().first == 1 && all[first + k].sewn.weights.z != 0) place.load = {};
+            give(Given{all[first + k], first + k, place, begun, count});
+        }
     }
 }
 
@@ -65,6 +73,20 @@ vec3 place_of(const TwinPlace& where, const SewnParticle& sewn, vec3 at) {
                          stage_of(where) == seam_touched || stage_of(where) == seam_met ? left.y : left.x);
 }
 
+/// Adds what pulls a particle to the load on its seam.
+void add_load(const TwinPlace& where, const Given& given, vec3 pull) {
+    if (where.state[Field::seam_loads].empty() || given.sewn().carried.y == 0) return;
+    given.place.load = seam_load(given.place.load, pull, given.sewn().carried.z);
+}
+
+/// Returns the force that has moved a particle of this inverse mass by so much.
+vec3 pull_of(const TwinPlace& where, vec3 moved, float inverse_mass) {
+    const glsl::vec2 force = where.step.push<SeamPush>().force;
+    const bool is_bdf2 =
+        where.model.scheme.second_order && where.state.integers(Field::line_control)[control_order] == 2u;
+    return sewn_pull(moved, inverse_mass, is_bdf2 ? force.y : force.x);
+}
+
 vec3 lead_of(const TwinPlace& where, std::size_t own) { return xyz(where.state[Field::sewn_leads][own]); }
 
 void give_vectors(const TwinPlace& where) {
@@ -75,6 +97,7 @@ void give_vectors(const TwinPlace& where) {
             own = without_carried(own,
                                   xyz(where.inputs.wind[static_cast<std::size_t>(where.step.push<SeamPush>().weather)]),
                                   given.sewn().carried.x, where.state[Field::position][given.particle()].w);
+        if (!normals) add_load(where, given, xyz(own));
         if (given.is_between()) own = own_force(own, given.sewn().weights.w);
         vec4& sum = given.place.vector;
         sum = given.sewn().weights.z != 0 ? own
@@ -92,6 +115,8 @@ void give_means(const TwinPlace& where) {
         const bool leads = given.sewn().between.w == 1;
         const float share = !settled ? given.sewn().weights.x : leads ? 1.0f : 0.0f;
         const vec4 moved = state[Field::displacement][given.particle()];
+        if (!settled && !where.scene.method().iterates())
+            add_load(where, given, pull_of(where, xyz(moved), given.sewn().weights.y));
         const vec3 way =
             counts_changes && given.is_between() ? sewn_lead(xyz(moved), lead_of(where, given.own)) : xyz(moved);
         place.displacement =
@@ -127,6 +152,9 @@ void give_solved(const TwinPlace& where) {
     for_sewn(where, [&](const Given& given) {
         const glsl::vec4 parts = given.sewn().parts;
         vec3 moved = xyz(where.state[Field::displacement][given.particle()]);
+        add_load(where, given,
+                 pull_of(where, sewn_lead(moved, xyz(given.begun.displacement)),
+                         dragged_weight(given.sewn().weights.y, given.begun.displacement.w)));
         if (given.is_between()) moved = sewn_lead(moved, lead_of(where, given.own));
         const vec3 mean = xyz(given.place.displacement);
         vec3 changed = sewn_change(mean, moved, xyz(given.begun.displacement), parts.y);
@@ -146,10 +174,19 @@ void give_order(const TwinPlace& where) {
     control = {joint.order, joint.wrong_lines, joint.hold, 0};
 }
 
+/// As a frame ends, what comes apart has to know where it is.
+void give_ends(const TwinPlace& where) {
+    for_sewn(where, [&](const Given& given) {
+        if (given.sewn().between.w == 1) given.place.position = where.state[Field::position][given.particle()];
+    });
+}
+
 void run_give(const TwinPlace& where) {
     const int stage = stage_of(where);
     if (stage == seam_orders)
         give_order(where);
+    else if (stage == seam_ripped)
+        give_ends(where);
     else if (has_vectors(stage))
         give_vectors(where);
     else if (moves_all(stage))
@@ -165,9 +202,10 @@ const glsl::SewnPlace& place_at(const TwinPlace& where, int index) {
 }
 
 void take_vectors(const TwinPlace& where) {
-    for (const Sewn& each : where.model.sewn) {
+    for (std::size_t index = 0; index < where.model.sewn.size(); ++index) {
+        const Sewn& each = where.model.sewn[index];
         const SewnParticle& sewn = each.sewn;
-        if (sewn.between.y == 0) continue;
+        if (sewn.between.y == 0 || has_ripped(where, index)) continue;
         const bool is_between = sewn.between.x >= 0;
         vec4 sum = place_at(where, sewn.at.z).vector;
         const vec4 other = is_between ? place_at(where, sewn.between.x).vector : vec4{};
@@ -196,8 +234,22 @@ glsl::SewnPlace between(const glsl::SewnPlace& one, const glsl::SewnPlace& other
     return place;
 }
 
+/// As a frame ends, places whose seam does not bear its load come apart.
+void rip_places(const TwinPlace& where) {
+    for (std::size_t own = 0; own < where.model.sewn.size(); ++own) {
+        const SewnParticle& sewn = where.model.sewn[own].sewn;
+        if (has_ripped(where, own) || sewn.carried.y == 0) continue;
+        const glsl::SewnPlace& place = place_at(where, sewn.at.z);
+        vec4& load = where.state[Field::seam_loads][where.model.sewn[own].particle];
+        load = seam_load_of(place.load, where.step.push<SeamPush>().share, sewn.carried.y);
+        if (load.w != 0)
+            where.state[Field::position][where.model.sewn[own].particle] = texel(xyz(place.position), sewn.carried.w);
+    }
+}
+
 void run_take(const TwinPlace& where) {
     const int stage = stage_of(where);
+    if (stage == seam_ripped) return rip_places(where);
     if (has_vectors(stage)) return take_vectors(where);
     TwinCloth& state = where.state;
     const bool predicted = moves_all(stage), touched = touches(where), moves = stage == seam_predicted || touched;
@@ -206,6 +258,7 @@ void run_take(const TwinPlace& where) {
     for (std::size_t own = 0; own < leads.size(); ++own) {
         const Sewn& each = where.model.sewn[own];
         const SewnParticle& sewn = each.sewn;
+        if (has_ripped(where, own)) continue;
         glsl::SewnPlace place = place_at(where, sewn.at.z);
         if (sewn.between.x >= 0) {
             const vec3 begun = xyz(place.displacement);

@@ -33,6 +33,7 @@ struct SeamSide {
 struct Seam {
     SeamSide a, b;
     double close = 0;  ///< s: they are drawn together from the start until then; 0: they start together
+    std::optional<double> rip{};  ///< N/m: the load at which places of it come apart; nothing: none does
     bool operator==(const Seam&) const = default;
 };
 

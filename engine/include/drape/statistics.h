@@ -27,6 +27,12 @@ struct ForceOnCloth {
     std::optional<std::array<double, 3>> worst{}, worst_moment{};
 };
 
+/// What seams that rip bear at a cloth.
+struct SeamStatistics {
+    double load = 0;           ///< N/m: the largest at a place that holds, averaged over the frame
+    std::uint32_t ripped = 0;  ///< particles of the cloth at places that have come apart
+};
+
 /// Values are in SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a
 /// number may overflow to infinity before the positions do.
 struct ClothStatistics {
@@ -47,6 +53,7 @@ struct ClothStatistics {
     /// Where the scene wants `forces`, from frame 1 on: all that changed the momentum in the frame, so the sum times
     /// the frame's time is that change.
     std::vector<ForceOnCloth> forces;
+    std::optional<SeamStatistics> seams{};   ///< from frame 1 on, of a cloth with a seam that rips
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
     /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.
