@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "base/vectors.h"
 #include "cloth/directions.h"
@@ -21,7 +22,35 @@ bool is_held(const ClothModel& cloth) {
     return false;
 }
 
+std::size_t index_of(const SimulationModel& model, const ClothModel& cloth) {
+    return static_cast<std::size_t>(&cloth - model.cloths.data());
+}
+
 bool meets_others(const SimulationModel& model) { return model.self_contact && model.scene.cloths.size() > 1; }
+
+/// Returns, by cloth, the first of those that it is sewn to, itself where it is sewn to none before it.
+std::vector<std::size_t> sewn_together(const SimulationModel& model) {
+    std::vector<std::size_t> first(model.cloths.size()), at_place(model.sewn_count, model.cloths.size());
+    std::iota(first.begin(), first.end(), 0);
+    const auto root = [&](std::size_t cloth) {
+        while (first[cloth] != cloth) cloth = first[cloth];
+        return cloth;
+    };
+    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
+        for (const Sewn& each : model.cloths[cloth].sewn) {
+            std::size_t& other = at_place[static_cast<std::size_t>(each.sewn.at.z)];
+            if (other < cloth) first[std::max(root(cloth), root(other))] = std::min(root(cloth), root(other));
+            other = cloth;
+        }
+    for (std::size_t cloth = 0; cloth < first.size(); ++cloth) first[cloth] = root(cloth);
+    return first;
+}
+
+bool is_sewn_to_others(const SimulationModel& model, std::size_t cloth) {
+    if (model.cloths[cloth].sewn.empty()) return false;
+    const std::vector<std::size_t> first = sewn_together(model);
+    return std::ranges::count(first, first[cloth]) > 1;
+}
 
 std::size_t most_pins(const SceneDescription& scene) {
     std::size_t most = 0;
@@ -110,6 +139,7 @@ Impulse given_by(const ForceSource& source, const SimulationModel& model, const 
         case ForceCause::pins:
             return sums.at(first_pin_row(model.scene) + source.number);
         case ForceCause::hands:
+        case ForceCause::seams:
             return {};
     }
     return {};
@@ -127,10 +157,11 @@ std::optional<Impulse> worst_of(const ForceSource& source, const Impulses& sums,
             return sums.contact(first_worst + glsl::impulse_cloths);
         case ForceCause::colliders:
             return sums.contact(first_worst + glsl::impulse_first + source.number);
-        // Gravity is known anyway. Pins and hands bear the rest of a frame, and damping is found with that.
+        // Gravity is known anyway. Pins, hands and seams bear the rest of a frame, and damping is found with that.
         case ForceCause::gravity:
         case ForceCause::pins:
         case ForceCause::hands:
+        case ForceCause::seams:
         case ForceCause::damping:
             return std::nullopt;
     }
@@ -162,13 +193,20 @@ void for_each_held(const SimulationModel& model, std::size_t index, std::uint32_
         if (numbers[i] > 0) take(i, shares[numbers[i] - 1], numbers[i] - 1);
 }
 
+/// Returns a particle's own inverse mass, without that of what is sewn to it; 0: it has none.
+float own_weight(const ClothModel& cloth, std::size_t particle) {
+    if (cloth.sewn.empty()) return cloth.free_weight[particle];
+    const auto place = static_cast<std::uint32_t>(particle);
+    return cloth.grid.relative_inverse_mass(place % cloth.grid.columns(), place / cloth.grid.columns());
+}
+
 /// Returns the mass, kg, that each pin of a cloth holds, on average over a frame, and then that of its hands.
 std::vector<double> held_masses(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
     const ClothModel& cloth = model.cloths[index];
     std::vector<double> masses(model.scene.cloths[index].pins.size() + 1);
     for_each_held(model, index, frame, [&](std::size_t particle, double share, std::size_t by) {
-        if (cloth.free_weight[particle] > 0)
-            masses[by] += share * cloth.inner_mass / double{cloth.free_weight[particle]};
+        if (const float weight = own_weight(cloth, particle); weight > 0)
+            masses[by] += share * cloth.inner_mass / double{weight};
     });
     return masses;
 }
@@ -189,12 +227,16 @@ std::vector<Vec3> held_pulls(const SimulationModel& model, std::size_t index, st
     return pulls;
 }
 
+/// Where seams stand among those that bear the rest of a frame: behind pins, before all others, or behind all.
+enum class SeamRest : std::uint8_t { behind_pins, first, last };
+
 /// The impulses of a frame on a cloth, by source.
 struct Account {
     const std::vector<ForceSource>& sources;
     std::vector<Impulse> impulses{};
     Vec3 left{};                 ///< what they leave of the change of momentum
     std::vector<double> held{};  ///< kg, by pin, and by hands
+    SeamRest seams{};            ///< whether seams bear the rest
 
     void add(const Impulse& impulse) {
         impulses.push_back({{}, impulse.moment});
@@ -207,8 +249,8 @@ struct Account {
     static bool is_holder(ForceCause cause) { return cause == ForceCause::pins || cause == ForceCause::hands; }
     bool holds(const ForceSource& each) const { return is_holder(each.cause) && held[each.number] > 0; }
     /// Whether a source may have given what is left: hands, or else pins, which also bear the motion and the air of
-    /// what they hold, and beside hands what their springs pull; without these air, and what was felt of colliders and
-    /// other cloths; where nothing else acts, damping.
+    /// what they hold, and beside hands what their springs pull; without these seams; without these too air, and what
+    /// was felt of colliders and other cloths; where nothing else acts, damping.
     bool may_take(std::size_t k) const {
         const auto any = [&](const auto& is) {
             for (std::size_t of = 0; of < sources.size(); ++of)
@@ -223,9 +265,14 @@ struct Account {
             return cause == ForceCause::air || cause == ForceCause::loads ||
                    (touches && length(impulses[of].given) > 0);
         };
+        const auto is_seam = [&](std::size_t of) { return sources[of].cause == ForceCause::seams; };
         if (any(is_handled)) return is_handled(k);
+        const auto damps = [&](std::size_t of) { return sources[of].cause == ForceCause::damping; };
+        if (any(is_seam) && seams == SeamRest::first) return is_seam(k);
         if (any(is_held)) return is_held(k);
-        return any(acts) ? acts(k) : sources[k].cause == ForceCause::damping;
+        if (any(is_seam) && seams == SeamRest::behind_pins) return is_seam(k);
+        if (any(acts)) return acts(k);
+        return any(damps) ? damps(k) : is_seam(k);
     }
     /// Gives what is left to those that may take it, to each as much as its impulse is of all.
     void close() {
@@ -264,6 +311,7 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
         all.push_back({ForceCause::colliders, k,
                        fmt::format("collider_{}_{}", k, collider_names[scene.colliders[k].shape.index()])});
     add(meets_others(model), ForceCause::other_cloths, "other_cloths");
+    add(is_sewn_to_others(model, index), ForceCause::seams, "seams");
     return all;
 }
 
@@ -290,7 +338,12 @@ float impulse_units(const SimulationModel& model) {
 }
 
 bool splits_pins(const SimulationModel& model) {
-    return model.scene.forces && most_pins(model.scene) > (model.options.hands.empty() ? 1 : 0);
+    if (!model.scene.forces) return false;
+    const auto sewn_and_pinned = [&](const ClothModel& cloth) {
+        return !cloth.sewn.empty() && !model.scene.cloths[index_of(model, cloth)].pins.empty();
+    };
+    return most_pins(model.scene) > (model.options.hands.empty() ? 1 : 0) ||
+           std::ranges::count_if(model.cloths, sewn_and_pinned) > 1;
 }
 
 std::vector<glsl::uint> pin_numbers(const SimulationModel& model, std::size_t index) {
@@ -320,17 +373,25 @@ glsl::MomentumPush momentum_push(const SimulationModel& model, const ClothModel&
     return push;
 }
 
-std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t index,
-                                       std::span<const std::byte> bytes, double mass, std::uint32_t frame) {
-    if (frame == 0) return {};
+namespace {
+
+/// What is known of seams before a cloth's forces are.
+struct KnownSeams {
+    SeamRest rest{};
+    Vec3 given{};  ///< N s
+};
+
+std::vector<ForceOnCloth> forces_with(const SimulationModel& model, std::size_t index, std::span<const std::byte> bytes,
+                                      double mass, std::uint32_t frame, const KnownSeams& seams) {
     const ClothModel& cloth = model.cloths[index];
     const std::vector<ForceSource> sources = force_sources(model, index);
     const Impulses sums(bytes, cloth);
     const Vec3 fallen = fall(model, frame);
     const std::vector<Vec3> pulls = held_pulls(model, index, frame);
-    Account account{sources, {}, sums.change(), held_masses(model, index, frame)};
+    Account account{sources, {}, sums.change(), held_masses(model, index, frame), seams.rest};
     for (const ForceSource& source : sources) {
         account.add(given_by(source, model, cloth, sums, mass, fallen));
+        if (source.cause == ForceCause::seams) account.give(account.impulses.size() - 1, seams.given);
         if (Account::is_holder(source.cause))
             account.give(account.impulses.size() - 1,
                          times(-1, plus(times(account.held[source.number], fallen), pulls[source.number])));
@@ -349,6 +410,51 @@ std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t
         if (forces.back().moment) forces.back().worst_moment = times(1 / cloth.substep_length, worst->moment);
     }
     return forces;
+}
+
+Vec3 force_of_seams(const std::vector<ForceOnCloth>& forces) {
+    const auto found = std::ranges::find(forces, "seams", &ForceOnCloth::by);
+    return found == forces.end() ? Vec3{} : found->force;
+}
+
+bool is_pinned(const SimulationModel& model, std::size_t cloth, std::uint32_t frame) {
+    return std::ranges::any_of(held_masses(model, cloth, frame), [](double mass) { return mass > 0; });
+}
+
+}  // namespace
+
+std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t index,
+                                       std::span<const std::byte> bytes, double mass, std::uint32_t frame) {
+    if (frame == 0) return {};
+    return forces_with(model, index, bytes, mass, frame, {});
+}
+
+void settle_seams(const SimulationModel& model, std::span<const std::span<const std::byte>> impulses,
+                  std::uint32_t frame, std::vector<ClothStatistics>& statistics) {
+    if (frame == 0 || !model.scene.forces || model.sewn_count == 0) return;
+    const std::vector<std::size_t> first = sewn_together(model);
+    for (std::size_t body = 0; body < first.size(); ++body) {
+        std::vector<std::size_t> all, pinned;
+        for (std::size_t cloth = 0; cloth < first.size(); ++cloth) {
+            if (first[cloth] != body) continue;
+            all.push_back(cloth);
+            if (is_pinned(model, cloth, frame)) pinned.push_back(cloth);
+        }
+        if (all.size() < 2) continue;
+        const auto with = [&](std::size_t cloth, const KnownSeams& seams) {
+            return forces_with(model, cloth, impulses[cloth], statistics[cloth].mass, frame, seams);
+        };
+        if (pinned.size() > 1)
+            for (const std::size_t cloth : pinned) statistics[cloth].forces = with(cloth, {SeamRest::first, {}});
+        Vec3 sum{};  // N: what seams give to all has to be nothing
+        for (const std::size_t cloth : all) sum = plus(sum, force_of_seams(statistics[cloth].forces));
+        const std::vector<std::size_t>& takers = pinned.empty() ? all : pinned;
+        for (const std::size_t cloth : takers) {
+            const Vec3 own =
+                minus(force_of_seams(statistics[cloth].forces), times(1.0 / static_cast<double>(takers.size()), sum));
+            statistics[cloth].forces = with(cloth, {SeamRest::last, times(1 / model.scene.time.fps, own)});
+        }
+    }
 }
 
 }  // namespace drape

@@ -13,11 +13,11 @@
 
 namespace drape {
 
-enum class ForceCause : std::uint8_t { gravity, pins, hands, air, loads, damping, colliders, other_cloths };
+enum class ForceCause : std::uint8_t { gravity, pins, hands, air, loads, damping, colliders, other_cloths, seams };
 
 /// In the order of ForceCause, as manifests name them.
-inline constexpr const char* force_causes[] = {"gravity", "pins",    "hands",     "air",
-                                               "loads",   "damping", "colliders", "other cloths"};
+inline constexpr const char* force_causes[] = {"gravity", "pins",      "hands",        "air",  "loads",
+                                               "damping", "colliders", "other cloths", "seams"};
 inline const char* name_of(ForceCause cause) { return force_causes[static_cast<std::size_t>(cause)]; }
 
 /// One thing that gives a cloth momentum.
@@ -42,15 +42,21 @@ std::uint32_t first_pin_row(const SceneDescription& scene);
 /// velocity that 1 m/s^2 makes in a substep. So 2^29 m/s^2 of a particle fit, and gravity's own rounding is 1e-7.
 float impulse_units(const SimulationModel& model);
 
-/// Returns whether several pins may hold a cloth, or pins and hands, so that what holds it has to be split among them.
+/// Returns whether several pins may hold a cloth, or pins and hands, or pins several cloths that are sewn together, so
+/// that what holds them has to be split among them.
 bool splits_pins(const SimulationModel& model);
 /// Returns for each particle 1 and the number of the pin that holds it, or 0.
 std::vector<glsl::uint> pin_numbers(const SimulationModel& model, std::size_t cloth);
 /// Returns the constants of the step that adds the momentum; `sign`: -1 as a frame begins, 1 as it ends.
 glsl::MomentumPush momentum_push(const SimulationModel& model, const ClothModel& cloth, float sign);
 
-/// Returns the forces of a frame, averaged over it, from the sums that it left. `mass`: the cloth's, kg.
+/// Returns the forces of a frame, averaged over it, from the sums that it left. `mass`: the cloth's, kg. Of a cloth
+/// that is sewn and that pins hold, those of seams are not known yet.
 std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t cloth,
                                        std::span<const std::byte> impulses, double mass, std::uint32_t frame);
+/// Finds what seams give to the cloths that pins hold, by what they give to others: what one gets the others lose.
+/// `impulses`: the sums of each cloth.
+void settle_seams(const SimulationModel& model, std::span<const std::span<const std::byte>> impulses,
+                  std::uint32_t frame, std::vector<ClothStatistics>& statistics);
 
 }  // namespace drape

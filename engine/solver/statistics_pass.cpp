@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "cloth/forces.h"
 #include "solver/cloth_constants.h"
 #include "solver/readback_pass.h"
 #include "solver/step_row.h"
@@ -144,6 +145,9 @@ std::vector<ClothStatistics> statistics_from(std::span<const StatisticsBytes> by
         all.push_back(cloth_statistics(run, cloth, record, frame, own.impulses));
         if (frame > 0 && !own.seams.empty()) all.back().seams = seam_statistics(cloth, own.seams);
     }
+    std::vector<std::span<const std::byte>> impulses;
+    for (const StatisticsBytes& own : bytes) impulses.push_back(own.impulses);
+    settle_seams(run, impulses, frame, all);
     return all;
 }
 

@@ -151,12 +151,18 @@ bool has_bodies(const SceneDescription& scene) {
 /// Returns what of a scene does not go with seams. A body gets back what it gives to the mass that a cloth has at a
 /// place: all of it where cloths touch it in turn with the mass of all, and none lies between places.
 std::string excluded_by(const SceneDescription& scene) {
-    if (scene.forces) return "expected no seams beside forces: what a seam transmits is not told yet";
+    const auto meets = [](const Cloth& cloth) { return cloth.self_collision.has_value(); };
+    if (scene.forces && std::ranges::any_of(scene.cloths, meets))
+        return "expected no seams beside forces where cloths have self_collision: what contact gives to what is sewn "
+               "is not told yet";
+    if (scene.forces && !scene.colliders.empty() && scene.solver.method != SolverMethod::relax)
+        return "expected method relax where seams are beside forces and colliders: by others what touches at a seam is "
+               "not all told";
     if (!has_bodies(scene)) return {};
     if (scene.solver.method != SolverMethod::relax && scene.solver.method != SolverMethod::line)
         return "expected method line or relax where seams are beside a body with a mass: by others they do not keep "
                "the momentum of both";
-    if (std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); }))
+    if (std::ranges::any_of(scene.cloths, meets))
         return "expected no seams beside a body with a mass where cloths have self_collision: all that is sewn touches "
                "it at once, and it would get back the sum";
     return {};
@@ -164,10 +170,48 @@ std::string excluded_by(const SceneDescription& scene) {
 
 /// Returns a fault where particles lie between places beside bodies: these touch the places alone.
 std::optional<SeamFault> fault_of_bodies(const SceneDescription& scene, const Sewing& sewing) {
-    if (sewing.between.empty() || !has_bodies(scene)) return std::nullopt;
-    return SeamFault{fmt::format("/{}", sewing.between.front().seam),
-                     "expected sides of as many particles each beside a body with a mass: what lies between others "
-                     "would touch it, and not move"};
+    if (sewing.between.empty()) return std::nullopt;
+    const std::string below = fmt::format("/{}", sewing.between.front().seam);
+    if (has_bodies(scene))
+        return SeamFault{below,
+                         "expected sides of as many particles each beside a body with a mass: what lies between "
+                         "others would touch it, and not move"};
+    if (scene.forces && !scene.colliders.empty())
+        return SeamFault{below,
+                         "expected sides of as many particles each beside forces and colliders: what touches "
+                         "between others is not all told"};
+    return std::nullopt;
+}
+
+/// Returns what of a scene does not go with seams that rip: what else moves sewn particles would have to be counted.
+std::string excluded_by_rips(const SceneDescription& scene) {
+    if (!scene.colliders.empty()) return "expected no colliders beside a seam that rips";
+    if (scene.solver.tethers) return "expected no tethers beside a seam that rips";
+    if (std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return cloth.self_collision.has_value(); }))
+        return "expected no self_collision beside a seam that rips";
+    return {};
+}
+
+/// Returns a fault where a seam that rips joins other than two particles at a place, or pins hold one of these.
+std::optional<SeamFault> fault_of_rips(const SceneDescription& scene, const Sewing& sewing) {
+    const auto seam = std::ranges::find_if(scene.seams, [](const Seam& each) { return each.rip.has_value(); });
+    if (seam == scene.seams.end()) return std::nullopt;
+    const auto fault = [&](std::string text) {
+        return SeamFault{fmt::format("/{}/rip", seam - scene.seams.begin()), std::move(text)};
+    };
+    if (std::string text = excluded_by_rips(scene); !text.empty()) return fault(std::move(text));
+    if (!sewing.between.empty()) return fault("expected all sides of seams to have as many particles where one rips");
+    for (const auto& [group, close, rip] : sewing.stations) {
+        if (rip.load == 0) continue;
+        if (group.size() != 2)
+            return fault(fmt::format("expected two particles at each place of a seam that rips, got {} at the sewn {}",
+                                     group.size(), named_particle(scene, group.front())));
+        for (const SewnMember& member : group)
+            if (holding_pin(scene, member))
+                return fault(
+                    fmt::format("expected no pin at a seam that rips, got one of {}", named_particle(scene, member)));
+    }
+    return std::nullopt;
 }
 
 bool lets_go_or_moves(const Pin& pin) { return pin.release || !pin.path.keys.empty(); }

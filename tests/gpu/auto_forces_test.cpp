@@ -10,6 +10,7 @@
 
 #include "library_device.h"
 #include "support/force_scenes.h"
+#include "support/sewn_scenes.h"
 
 namespace drape {
 namespace {
@@ -26,10 +27,14 @@ class AutoRun {
         scene.forces = true;
         scene.time.frame_count = last + 1;
         Simulation simulation(scene, {}, test::library_device());
-        while (simulation.step()) frames_.push_back(simulation.frame().statistics);
+        while (simulation.step()) {
+            frames_.push_back(simulation.frame().statistics);
+            substeps_.push_back(simulation.frame().effort.substeps);
+        }
     }
 
     const std::vector<ClothStatistics>& at(std::size_t frame) const { return frames_.at(frame); }
+    std::uint32_t substeps(std::size_t frame) const { return substeps_.at(frame); }
     std::size_t last() const { return frames_.size() - 1; }
     double frame_time() const { return 1 / fps_; }
     double weight() const { return 9.81 * at(0)[0].mass; }
@@ -46,6 +51,7 @@ class AutoRun {
   private:
     double fps_;
     std::vector<std::vector<ClothStatistics>> frames_;
+    std::vector<std::uint32_t> substeps_;
 };
 
 SceneDescription hanging() {
@@ -136,6 +142,34 @@ TEST_F(AutoForcesTest, ForcesAddUpToTheChangeOfMomentum) {
                                                             run.frame_time()));
     }
     std::printf("[ measured ] seed %u: the sums are off by %.1e of the largest force at most\n", drawn_by, worst);
+    EXPECT_LT(worst, 1e-4);
+}
+
+TEST_F(AutoForcesTest, SeamsBearWhatHangsFromThem) {
+    SceneDescription scene = test::two_panels(SolverMethod::automatic);
+    scene.wind = {};
+    for (Cloth& cloth : scene.cloths) cloth.damping = 8, cloth.velocity = {};
+    scene.cloths[0].placement.v = scene.cloths[1].placement.v = {0, -1, 0};
+    scene.cloths[1].placement.origin = {-0.4, -0.05, -0.3};
+    const AutoRun run(scene, 260);
+    const auto seams = [&](std::size_t cloth) {
+        const std::vector<ForceOnCloth>& all = run.at(run.last())[cloth].forces;
+        const auto found = std::ranges::find(all, "seams", &ForceOnCloth::by);
+        return found == all.end() ? Vec3{} : found->force;
+    };
+    const double lower = 9.81 * run.at(0)[1].mass;
+    expect_near(seams(1), {0, lower, 0}, 1e-4, "what bears the lower panel");
+    expect_near(seams(0), {0, -lower, 0}, 1e-4, "what the upper one bears of it");
+    expect_near(run.force("pins_0"), {0, run.weight() + lower, 0}, 1e-4, "the pins of both");
+    double worst = 0;
+    for (std::size_t frame = 2; frame <= run.last(); ++frame) {
+        // A change of the substeps changes the momentum of any cloth that swings fast, sewn or not.
+        if (run.substeps(frame) != run.substeps(frame - 1)) continue;
+        for (std::size_t cloth = 0; cloth < 2; ++cloth)
+            worst = std::max(
+                worst, test::missing_force(run.at(frame)[cloth], run.at(frame - 1)[cloth].momentum, run.frame_time()));
+    }
+    std::printf("[ measured ] sewn: the sums are off by %.1e of the largest force at most\n", worst);
     EXPECT_LT(worst, 1e-4);
 }
 

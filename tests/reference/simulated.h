@@ -9,6 +9,7 @@
 
 #include "base/vectors.h"
 #include "cloth/cloth_statistics.h"
+#include "cloth/forces.h"
 #include "cloth/frame_inputs.h"
 #include "support/force_scenes.h"
 #include "twin/statistics.h"
@@ -29,6 +30,17 @@ class Simulated {
         const FrameInputs inputs = frame_inputs(model_, frame_);
         return cloth_statistics(model_, model_.cloths[cloth], twin_statistics(model_, cloth, state, inputs), frame_,
                                 std::as_bytes(std::span(state.integers(Field::impulses))));
+    }
+    /// Returns the statistics of all cloths, with what seams between them give.
+    std::vector<ClothStatistics> all_statistics() {
+        std::vector<ClothStatistics> all;
+        std::vector<std::span<const std::byte>> impulses;
+        for (std::size_t cloth = 0; cloth < model_.cloths.size(); ++cloth) {
+            all.push_back(statistics(cloth));
+            impulses.push_back(std::as_bytes(std::span(twin_.cloth(cloth).integers(Field::impulses))));
+        }
+        settle_seams(model_, impulses, frame_, all);
+        return all;
     }
     Vec3 force(const std::string& by) { return of(by).force; }
     Vec3 moment(const std::string& by) { return of(by).moment.value(); }

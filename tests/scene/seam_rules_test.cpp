@@ -146,8 +146,14 @@ TEST(SeamRules, TellWhatSeamsDoNotGoWith) {
 "seams": [{"a": {"cloth": "a", "edge": "top"}, "b": {"cloth": "b", "edge": "top"}}]})"),
               SeamTexts{"3: /seams/0: expected sides of as many particles each beside a body with a mass: what lies "
                         "between others would touch it, and not move"});
-    EXPECT_EQ(with("", "", R"(, "forces": true)"),
-              SeamTexts{"2: /seams: expected no seams beside forces: what a seam transmits is not told yet"});
+    EXPECT_EQ(with("", "", R"(, "forces": true)"), SeamTexts{});
+    EXPECT_EQ(
+        with(R"(, "self_collision": true)", "", R"(, "forces": true)"),
+        SeamTexts{"2: /seams: expected no seams beside forces where cloths have self_collision: what contact gives "
+                  "to what is sewn is not told yet"});
+    EXPECT_EQ(with("", "", R"(, "forces": true, "colliders": {"planes": [{}]})"),
+              SeamTexts{"2: /seams: expected method relax where seams are beside forces and colliders: by others what "
+                        "touches at a seam is not all told"});
     EXPECT_EQ(
         with(R"(, "pins": [{"edge": "bottom"}])", R"(, "pins": [{"corner": "top_left", "release": 1}])", ""),
         SeamTexts{"2: /seams: expected one pin alone where it moves or lets go, got 2 at the sewn particle [0, 4] of "
