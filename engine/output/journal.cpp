@@ -16,7 +16,7 @@ namespace drape {
 namespace {
 
 constexpr std::string_view magic = "DRAPEJNL";
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 // The largest number of bytes that wait in memory while there is no file, and once there is one.
 constexpr std::size_t most_before_file = std::size_t{8} << 20, most_behind_file = std::size_t{1} << 20;
 
