@@ -2,7 +2,7 @@
 // free particles are. Particles that are held have the momentum of their pins' motion. Where it `splits` what holds the
 // cloth among its pins, it adds what holds the springs of theirs, as if that acted for half of the frame. Where
 // `masked`, masses and spring shares come from images (holes, maps, cuts). Where the frame `keeps_contact`, it begins what
-// colliders give to each particle.
+// contact gives to each particle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/impulse_types.h"

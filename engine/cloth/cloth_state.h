@@ -42,7 +42,7 @@ enum class Field : std::uint8_t {
     wind_force,                ///< N
     loads,                     ///< ClothGeometry::loads
     impulses,                  ///< what changes the momentum in the frame (shared/impulse_types.h)
-    contact_impulses,          ///< xyz: of these what colliders gave to each particle, masses of an inner particle x m
+    contact_impulses,          ///< xyz: of these what contact gave to each particle, masses of an inner particle x m
     bodies,                    ///< of a member's first cloth: its bodies (shared/body_types.h), of which
     body_constants,            ///< these are the constants; and by body, of the sums of impulses on a cloth,
     struck,                    ///< what the body got the opposite of in this frame so far

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
+#include <set>
 
 #include "base/vectors.h"
+#include "cloth/cloth_statistics.h"
 #include "cloth/directions.h"
+#include "cloth/sewing.h"
 #include "cloth/texels.h"
 #include "world/weather.h"
 
@@ -27,30 +29,6 @@ std::size_t index_of(const SimulationModel& model, const ClothModel& cloth) {
 }
 
 bool meets_others(const SimulationModel& model) { return model.self_contact && model.scene.cloths.size() > 1; }
-
-/// Returns, by cloth, the first of those that it is sewn to, itself where it is sewn to none before it.
-std::vector<std::size_t> sewn_together(const SimulationModel& model) {
-    std::vector<std::size_t> first(model.cloths.size()), at_place(model.sewn_count, model.cloths.size());
-    std::iota(first.begin(), first.end(), 0);
-    const auto root = [&](std::size_t cloth) {
-        while (first[cloth] != cloth) cloth = first[cloth];
-        return cloth;
-    };
-    for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
-        for (const Sewn& each : model.cloths[cloth].sewn) {
-            std::size_t& other = at_place[static_cast<std::size_t>(each.sewn.at.z)];
-            if (other < cloth) first[std::max(root(cloth), root(other))] = std::min(root(cloth), root(other));
-            other = cloth;
-        }
-    for (std::size_t cloth = 0; cloth < first.size(); ++cloth) first[cloth] = root(cloth);
-    return first;
-}
-
-bool is_sewn_to_others(const SimulationModel& model, std::size_t cloth) {
-    if (model.cloths[cloth].sewn.empty()) return false;
-    const std::vector<std::size_t> first = sewn_together(model);
-    return std::ranges::count(first, first[cloth]) > 1;
-}
 
 std::size_t most_pins(const SceneDescription& scene) {
     std::size_t most = 0;
@@ -193,20 +171,13 @@ void for_each_held(const SimulationModel& model, std::size_t index, std::uint32_
         if (numbers[i] > 0) take(i, shares[numbers[i] - 1], numbers[i] - 1);
 }
 
-/// Returns a particle's own inverse mass, without that of what is sewn to it; 0: it has none.
-float own_weight(const ClothModel& cloth, std::size_t particle) {
-    if (cloth.sewn.empty()) return cloth.free_weight[particle];
-    const auto place = static_cast<std::uint32_t>(particle);
-    return cloth.grid.relative_inverse_mass(place % cloth.grid.columns(), place / cloth.grid.columns());
-}
-
 /// Returns the mass, kg, that each pin of a cloth holds, on average over a frame, and then that of its hands.
 std::vector<double> held_masses(const SimulationModel& model, std::size_t index, std::uint32_t frame) {
     const ClothModel& cloth = model.cloths[index];
     std::vector<double> masses(model.scene.cloths[index].pins.size() + 1);
+    const std::vector<float> shares = mass_shares(cloth);
     for_each_held(model, index, frame, [&](std::size_t particle, double share, std::size_t by) {
-        if (const float weight = own_weight(cloth, particle); weight > 0)
-            masses[by] += share * cloth.inner_mass / double{weight};
+        masses[by] += share * cloth.inner_mass * double{shares[particle]};
     });
     return masses;
 }
@@ -236,7 +207,7 @@ struct Account {
     std::vector<Impulse> impulses{};
     Vec3 left{};                 ///< what they leave of the change of momentum
     std::vector<double> held{};  ///< kg, by pin, and by hands
-    SeamRest seams{};            ///< whether seams bear the rest
+    SeamRest seams{};            ///< where seams stand among those that bear the rest
 
     void add(const Impulse& impulse) {
         impulses.push_back({{}, impulse.moment});
@@ -311,7 +282,7 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
         all.push_back({ForceCause::colliders, k,
                        fmt::format("collider_{}_{}", k, collider_names[scene.colliders[k].shape.index()])});
     add(meets_others(model), ForceCause::other_cloths, "other_cloths");
-    add(is_sewn_to_others(model, index), ForceCause::seams, "seams");
+    add(sewn_joints(model)[index] >= 0, ForceCause::seams, "seams");
     return all;
 }
 
@@ -432,15 +403,15 @@ std::vector<ForceOnCloth> cloth_forces(const SimulationModel& model, std::size_t
 void settle_seams(const SimulationModel& model, std::span<const std::span<const std::byte>> impulses,
                   std::uint32_t frame, std::vector<ClothStatistics>& statistics) {
     if (frame == 0 || !model.scene.forces || model.sewn_count == 0) return;
-    const std::vector<std::size_t> first = sewn_together(model);
-    for (std::size_t body = 0; body < first.size(); ++body) {
+    const std::vector<int> joints = sewn_joints(model);
+    for (const int joint : std::set<int>(joints.begin(), joints.end())) {
+        if (joint < 0) continue;
         std::vector<std::size_t> all, pinned;
-        for (std::size_t cloth = 0; cloth < first.size(); ++cloth) {
-            if (first[cloth] != body) continue;
+        for (std::size_t cloth = 0; cloth < joints.size(); ++cloth) {
+            if (joints[cloth] != joint) continue;
             all.push_back(cloth);
             if (is_pinned(model, cloth, frame)) pinned.push_back(cloth);
         }
-        if (all.size() < 2) continue;
         const auto with = [&](std::size_t cloth, const KnownSeams& seams) {
             return forces_with(model, cloth, impulses[cloth], statistics[cloth].mass, frame, seams);
         };

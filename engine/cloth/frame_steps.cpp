@@ -405,9 +405,7 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     add_begin_of_impulses(model, steps);
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].stiffens) steps.push_back({StepKind::stiffness, cloth, 0});
-    std::vector<const std::vector<Sewn>*> sewn;
-    for (const ClothModel& cloth : model.cloths) sewn.push_back(&cloth.sewn);
-    const std::vector<int> joints = sewn_joints(sewn);
+    const std::vector<int> joints = sewn_joints(model);
     for (std::uint32_t substep = 0; substep < model.scene.solver.substeps; ++substep) {
         add_motion_of_bodies(model, substep, steps);
         if (model.sewn_count > 0)
@@ -430,8 +428,8 @@ std::vector<Step> normal_steps(const SimulationModel& model) {
     for (const StepKind kind : {StepKind::seam_give, StepKind::seam_take})
         for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
             if (const auto count = static_cast<int>(model.cloths[cloth].sewn.size()); count > 0)
-                steps.push_back({kind, cloth, 0, 0,
-                                 glsl::SeamPush{count, glsl::seam_normals, 0, 0, {}, -1, 0, 0, 0, 0, 0}});
+                steps.push_back(
+                    {kind, cloth, 0, 0, glsl::SeamPush{count, glsl::seam_normals, 0, 0, {}, -1, 0, 0, 0, 0, 0}});
     return steps;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/vectors.h"
 #include "cloth/grid.h"
+#include "cloth/simulation_model.h"
 #include "world/seams.h"
 #include "world/start.h"
 
@@ -254,10 +255,11 @@ std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& clo
     return all;
 }
 
-std::vector<int> sewn_joints(const std::vector<const std::vector<Sewn>*>& cloths) {
+std::vector<int> sewn_joints(const SimulationModel& model) {
+    const std::vector<ClothModel>& cloths = model.cloths;
     std::map<int, std::set<std::size_t>> at_place;
     for (std::size_t cloth = 0; cloth < cloths.size(); ++cloth)
-        for (const Sewn& each : *cloths[cloth]) at_place[each.sewn.at.z].insert(cloth);
+        for (const Sewn& each : cloths[cloth].sewn) at_place[each.sewn.at.z].insert(cloth);
     std::vector<int> joints(cloths.size(), -1);
     const auto join = [&](int place, const std::set<std::size_t>& here) {
         int first = place;

@@ -8,6 +8,8 @@
 
 namespace drape {
 
+struct SimulationModel;
+
 /// A particle of a cloth at a place where it is sewn; one that lies between two places has an entry for each.
 struct Sewn {
     std::uint32_t particle;
@@ -40,6 +42,6 @@ std::vector<Sewn> sewn_particles(const SceneDescription& scene, const Cloth& clo
 std::vector<double> sewn_masses(const SceneDescription& scene);
 
 /// Returns, by cloth, the first place of all cloths that it and others are sewn together with; -1: it is sewn to none.
-std::vector<int> sewn_joints(const std::vector<const std::vector<Sewn>*>& cloths);
+std::vector<int> sewn_joints(const SimulationModel& model);
 
 }  // namespace drape

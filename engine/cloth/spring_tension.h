@@ -21,8 +21,8 @@ std::vector<float> spring_tensions(const SimulationModel& model, std::size_t clo
                                    std::uint32_t frame, std::span<const float> positions,
                                    const PerDirection<std::span<const float>>& kept);
 
-/// Returns the mean force of all colliders on each particle in a frame, N, as FinishedFrame::contact_forces.
-/// `impulses`: of Field::contact_impulses; empty: there is no collider.
+/// Returns the mean force of contact on each particle in a frame, N, as FinishedFrame::contact_forces.
+/// `impulses`: of Field::contact_impulses; empty: nothing can touch it.
 std::vector<float> contact_forces(const SimulationModel& model, std::size_t cloth, std::span<const float> impulses);
 
 /// Returns by particle the springs that are there, as Simulation::spring_bits.

@@ -125,7 +125,7 @@ Turning turn_parts(Surface& surface, const Vec3& origin, Mending& done) {
     parts.expect_one_way();
     if (parts.volume() < 0) parts.turn_all();
     parts.turn_outwards();
-    done.turned = parts.turned_triangles();
+    done.turned += parts.turned_triangles();
     done.parts = parts.count();
     done.turned_parts = parts.turned_parts();
     const bool closed = parts.is_closed();

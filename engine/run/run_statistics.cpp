@@ -205,7 +205,7 @@ std::string RunStatistics::note(const FrameValues& values) const {
     if (const auto substeps = values.find("substeps"); substeps != values.end())
         parts.push_back(fmt::format("{:.0f} substeps", substeps->second));
     if (const auto ripped = worst(values, "/seam_ripped"); ripped && *ripped > 0)
-        parts.push_back(fmt::format("{:.0f} places of a seam ripped", *ripped));
+        parts.push_back(fmt::format("{:.0f} particles of a cloth at ripped seams", *ripped));
     if (values.contains("asleep")) parts.push_back("asleep");
     if (const auto drift = energy_drift(values))
         parts.push_back(fmt::format("energy {:+.3g} J since frame {}", *drift, first_->first));

@@ -414,9 +414,10 @@ const Object<SceneDescription> scene{
          "themselves.",
          cloth_count},
         {"seams", &SceneDescription::seams, list<Seam>(seam, "an array of at most 4096 seams", 0, 4096),
-         "What sews the cloths together. Beside bodies with a mass only by line or relax, beside colliders where forces "
-         "are told only by relax, and both with sides of as many particles each, and without self_collision, beside "
-         "which no forces are told of sewn cloths."},
+         "What sews the cloths together. Beside bodies with a mass, and beside colliders where forces are told, only "
+         "by "
+         "line or relax, with sides of as many particles each, and without self_collision, beside which no forces are "
+         "told of sewn cloths."},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
          "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "

@@ -63,13 +63,15 @@ void turn(ClothState& cloth, Turn turned) {
     if (turned == Turn::displacement) cloth.turn_displacement();
 }
 
-/// The image that holds the line method's control for a step. A prediction reads that of the substep before, which
-/// earlier steps of its substep take too, and writes the other; a frame begins and ends with it at home.
+/// Returns the image that holds the line method's control for a step. A prediction reads that of the substep before,
+/// which earlier steps of its substep take too, and writes the other; a frame begins and ends with it at home.
 Field control_of(const Step& step, bool written) {
     const bool ends_frame = step.kind == StepKind::advance;
     if (ends_frame && written) return Field::line_control;
-    const bool is_before = ends_frame || step.kind == StepKind::release || step.kind == StepKind::seam_give ||
-                           (step.kind == StepKind::predict && !written);
+    const bool joins_orders =
+        step.kind == StepKind::seam_give && step.push<glsl::SeamPush>().stage == glsl::seam_orders;
+    const bool is_before =
+        ends_frame || step.kind == StepKind::release || joins_orders || (step.kind == StepKind::predict && !written);
     return (step.substep + (is_before ? 0 : 1)) % 2 == 0 ? Field::line_control : Field::line_control_spare;
 }
 

@@ -155,11 +155,12 @@ std::string excluded_by(const SceneDescription& scene) {
     if (scene.forces && std::ranges::any_of(scene.cloths, meets))
         return "expected no seams beside forces where cloths have self_collision: what contact gives to what is sewn "
                "is not told yet";
-    if (scene.forces && !scene.colliders.empty() && scene.solver.method != SolverMethod::relax)
-        return "expected method relax where seams are beside forces and colliders: by others what touches at a seam is "
-               "not all told";
+    const bool gives_back = scene.solver.method == SolverMethod::relax || scene.solver.method == SolverMethod::line;
+    if (scene.forces && !scene.colliders.empty() && !gives_back)
+        return "expected method line or relax where seams are beside forces and colliders: by others what touches at a "
+               "seam is not all told";
     if (!has_bodies(scene)) return {};
-    if (scene.solver.method != SolverMethod::relax && scene.solver.method != SolverMethod::line)
+    if (!gives_back)
         return "expected method line or relax where seams are beside a body with a mass: by others they do not keep "
                "the momentum of both";
     if (std::ranges::any_of(scene.cloths, meets))
@@ -168,8 +169,8 @@ std::string excluded_by(const SceneDescription& scene) {
     return {};
 }
 
-/// Returns a fault where particles lie between places beside bodies: these touch the places alone.
-std::optional<SeamFault> fault_of_bodies(const SceneDescription& scene, const Sewing& sewing) {
+/// Returns a fault where particles lie between places and have to bear what touches them: only places do.
+std::optional<SeamFault> fault_of_between(const SceneDescription& scene, const Sewing& sewing) {
     if (sewing.between.empty()) return std::nullopt;
     const std::string below = fmt::format("/{}", sewing.between.front().seam);
     if (has_bodies(scene))
@@ -194,22 +195,25 @@ std::string excluded_by_rips(const SceneDescription& scene) {
 
 /// Returns a fault where a seam that rips joins other than two particles at a place, or pins hold one of these.
 std::optional<SeamFault> fault_of_rips(const SceneDescription& scene, const Sewing& sewing) {
-    const auto seam = std::ranges::find_if(scene.seams, [](const Seam& each) { return each.rip.has_value(); });
-    if (seam == scene.seams.end()) return std::nullopt;
-    const auto fault = [&](std::string text) {
-        return SeamFault{fmt::format("/{}/rip", seam - scene.seams.begin()), std::move(text)};
+    const auto first = std::ranges::find_if(scene.seams, [](const Seam& each) { return each.rip.has_value(); });
+    if (first == scene.seams.end()) return std::nullopt;
+    const auto fault = [](std::size_t seam, std::string text) {
+        return SeamFault{fmt::format("/{}/rip", seam), std::move(text)};
     };
-    if (std::string text = excluded_by_rips(scene); !text.empty()) return fault(std::move(text));
-    if (!sewing.between.empty()) return fault("expected all sides of seams to have as many particles where one rips");
+    const auto any = static_cast<std::size_t>(first - scene.seams.begin());
+    if (std::string text = excluded_by_rips(scene); !text.empty()) return fault(any, std::move(text));
+    if (!sewing.between.empty())
+        return fault(any, "expected all sides of seams to have as many particles where one rips");
     for (const auto& [group, close, rip] : sewing.stations) {
         if (rip.load == 0) continue;
         if (group.size() != 2)
-            return fault(fmt::format("expected two particles at each place of a seam that rips, got {} at the sewn {}",
+            return fault(rip.seam,
+                         fmt::format("expected two particles at each place of a seam that rips, got {} at the sewn {}",
                                      group.size(), named_particle(scene, group.front())));
         for (const SewnMember& member : group)
             if (holding_pin(scene, member))
-                return fault(
-                    fmt::format("expected no pin at a seam that rips, got one of {}", named_particle(scene, member)));
+                return fault(rip.seam, fmt::format("expected no pin at a seam that rips, got one of {}",
+                                                   named_particle(scene, member)));
     }
     return std::nullopt;
 }
@@ -256,13 +260,14 @@ class Groups {
         while (led_.at(member) != member) member = led_.at(member);
         return member;
     }
-    /// `length`: m, of the seam's that is the pair's.
-    void join(const SewnMember& a, const SewnMember& b, const Seam& seam, double length) {
+    /// `index`: the seam's, `length`: m, of the seam's that is the pair's.
+    void join(const SewnMember& a, const SewnMember& b, std::size_t index, const Seam& seam, double length) {
         const SewnMember one = leader_of(a), other = leader_of(b);
         const double later = std::max({close_[one], close_[other], seam.close});
         SewnRip all = rips_[one];
-        if (one != other) all.load += rips_[other].load, all.length += rips_[other].length;
-        if (seam.rip) all.load += *seam.rip * length, all.length += length;
+        if (const SewnRip& more = rips_[other]; one != other && more.length > 0)
+            all = {all.load + more.load, all.length + more.length, more.seam};
+        if (seam.rip) all = {all.load + *seam.rip * length, all.length + length, index};
         stays_[std::min(one, other)] = stays_[one] || stays_[other] || !seam.rip;
         led_.at(std::max(one, other)) = std::min(one, other);
         close_[std::min(one, other)] = later;
@@ -301,7 +306,7 @@ class Sewer {
         for (std::size_t k = 0; k < all.size(); ++k)
             for (std::size_t pair = 0; pair < all[k].pairs.size(); ++pair)
                 if (const auto& [one, other] = all[k].pairs[pair]; has_cell(one) && has_cell(other))
-                    groups_.join(one, other, scene_.seams[k], all[k].lengths.empty() ? 0 : all[k].lengths[pair]);
+                    groups_.join(one, other, k, scene_.seams[k], all[k].lengths.empty() ? 0 : all[k].lengths[pair]);
         for (std::size_t k = 0; k < all.size(); ++k)
             for (const Joint& joint : all[k].joints)
                 if (has_cell(joint.follower) && has_cell(joint.leaders[0]) && has_cell(joint.leaders[1]))
@@ -411,7 +416,7 @@ std::vector<SeamFault> seam_faults(const SceneDescription& scene) {
     if (!fault) {
         const Sewing sewing = std::move(sewer).take();
         fault = fault_of_pins(scene, sewing);
-        if (!fault) fault = fault_of_bodies(scene, sewing);
+        if (!fault) fault = fault_of_between(scene, sewing);
         if (!fault) fault = fault_of_rips(scene, sewing);
     }
     if (fault) faults.push_back(std::move(*fault));

@@ -27,8 +27,9 @@ using SewnGroup = std::vector<SewnMember>;
 
 /// What a place bears before it comes apart.
 struct SewnRip {
-    double load = 0;    ///< N; 0: anything
-    double length = 0;  ///< m: of the seams that is the place's
+    double load = 0;       ///< N; 0: anything
+    double length = 0;     ///< m: of the seams that is the place's
+    std::size_t seam = 0;  ///< one of these
 };
 
 /// A place where particles are sewn. It may have one alone, which others lie between.

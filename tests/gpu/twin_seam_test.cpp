@@ -44,18 +44,17 @@ TEST_P(TwinSeamTest, UnlikePanels) {
 }
 
 TEST_P(TwinSeamTest, SeamsThatRip) {
-    for (SceneDescription scene : {test::pulled_strip(GetParam(), 60, 3), test::opening_seam(GetParam(), 1)}) {
-        scene.wind.velocity = {1, 0.3, -2};
+    SceneDescription ring = tube(GetParam());
+    ring.cloths[0].pins = {test::pin_box(6, 0, 18, 0)};
+    ring.seams[0].rip = 5;
+    for (SceneDescription scene : {test::pulled_strip(GetParam(), 60, 3), test::opening_seam(GetParam(), 1), ring}) {
+        if (scene.cloths.size() > 1) scene.wind.velocity = {1, 0.3, -2};
         const SimulationModel model(scene);
         Twin twin(model);
         for (std::uint32_t frame = 1; frame <= frame_count; ++frame) twin.run_frame(frame);
         EXPECT_GT(seam_statistics(model.cloths[0], twin.cloth(0).bytes(Field::seam_loads)).ripped, 2u);
         compare(scene);
     }
-    SceneDescription ring = tube(GetParam());
-    ring.cloths[0].pins = {test::pin_box(6, 0, 18, 0)};
-    ring.seams[0].rip = 5;
-    compare(ring);
 }
 
 TEST_P(TwinSeamTest, SeamsThatClose) {

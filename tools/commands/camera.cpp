@@ -20,7 +20,7 @@ struct Options {
     std::optional<std::uint32_t> end;
 };
 
-std::string listed(const Vec3& point) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", point[0], point[1], point[2]); }
+std::string listed(const Vec3& point) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", point[0], point[1], point[2]); }
 
 ExitCode run(const Options& options) {
     catch_signals();
