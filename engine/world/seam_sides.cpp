@@ -18,7 +18,8 @@ using FlatPoint = std::array<double, 2>;
 FlatPoint flat_place(const Cloth& cloth, std::uint32_t particle) {
     if (!cloth.panel.empty()) return cloth.panel[particle];
     const auto [dx, dy] = grid_spacing(cloth);
-    return {particle % cloth.grid[0] * dx, particle / cloth.grid[0] * dy};
+    const std::uint32_t column = particle % cloth.grid[0], row = particle / cloth.grid[0];
+    return {column * dx, row * dy};
 }
 
 double way_between(const FlatPoint& a, const FlatPoint& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }

@@ -2,8 +2,8 @@
 // springs) that replaces it where the history cannot be trusted; and the control that decides which of the two a
 // substep is. Beside its position, a particle's state is d, the displacement of the substep, d_before, that of the
 // substep before, and `excess` = u - d = (d - d_before)/2, where u is h times the velocity at the substep's end and d
-// is h times its mean (under damping a share of it: end_velocity.h). These small numbers are stored and added, so no digits are lost in d. Both steps, and changes
-// between them, are exact in free flight.
+// is h times its mean (under damping a share of it: end_velocity.h). These small numbers are stored and added, so no
+// digits are lost in d. Both steps, and changes between them, are exact in free flight.
 #ifndef DRAPE_BDF2_H
 #define DRAPE_BDF2_H
 

@@ -54,7 +54,8 @@ start, under the same angle; without one, from the right, the front and above.
 Examples:
   drape camera scenes/flag.json
   drape camera scenes/flag.json --size 720x1280 -s 60
-  drape render scenes/flag.json -o out --set "/camera=$(drape camera scenes/flag.json)"
+  drape render scenes/flag.json -o out/fits \
+      --set "/camera=$(drape camera scenes/flag.json)"
 )text",
                                     [=] { return run(*options); });
     add_scene_options(command, options->scene);

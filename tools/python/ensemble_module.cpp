@@ -196,6 +196,46 @@ void define_member_arrays(py::class_<PyEnsemble>& ensemble) {
         "\"forces\": \"fields\".");
 }
 
+void define_member_facts(py::class_<PyEnsemble>& ensemble) {
+    ensemble
+        .def_property_readonly(
+            "obstacle", [](const PyEnsemble& self) { return self.ensemble().sharing_obstacle(); },
+            "Why members do not share dispatches and take longer; None: they do.")
+        .def_property_readonly("pass_count", [](const PyEnsemble& self) { return self.ensemble().pass_count(); })
+        .def_property_readonly(
+            "device_ms", [](const PyEnsemble& self) { return self.ensemble().device_milliseconds(); },
+            "Milliseconds that the device spent on the last step.")
+        .def_property_readonly("device", [](const PyEnsemble& self) { return self.device().info().name; })
+        .def_property_readonly("validation_count",
+                               [](const PyEnsemble& self) { return self.device().validation_count(); });
+    ensemble.def(
+        "bodies",
+        [](const PyEnsemble& self) {
+            std::vector<std::vector<BodyState>> all;
+            for (std::size_t k = 0; k < self.ensemble().size(); ++k) all.push_back(self.ensemble().bodies(k));
+            return body_arrays(all, true);
+        },
+        "A dict of arrays [member, body, ...] of the colliders with a mass, as Simulation.bodies().");
+}
+
+void define_member_step(py::class_<PyEnsemble>& ensemble) {
+    define_told(
+        ensemble, "step", [](PyEnsemble& self, const Told& told) { self.step(told); },
+        "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
+        "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
+        "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
+        "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
+        "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
+        "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
+        "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
+        "a load "
+        "that presses Pa, 0, 0, during the step. body_forces: [member, body, 3 or 6]: N and N m on colliders with "
+        "a "
+        "mass, during the step. body_impulses: likewise N s and N m s at its start. body_velocities: m/s and rad/s "
+        "at its start, of those bodies that body_sets, bool [member, body], names, or of all. "
+        "What is not given stays as it is. Raises ActionError, and then no member went on.");
+}
+
 }  // namespace
 
 void define_ensemble(py::module_& module) {
@@ -240,40 +280,9 @@ void define_ensemble(py::module_& module) {
             py::arg("path"), py::arg("member") = 0,
             "Writes a scene file that is told what the member was told since its start, and so has its bits. Needs "
             "record=True. Files that the member's scene names are looked for beside it.")
-        .def("picture", &picture_of, py::arg("member"), "uint8 [height, width, 4], sRGB and 255: the member now.")
-        .def_property_readonly(
-            "obstacle", [](const PyEnsemble& self) { return self.ensemble().sharing_obstacle(); },
-            "Why members do not share dispatches and take longer; None: they do.")
-        .def_property_readonly("pass_count", [](const PyEnsemble& self) { return self.ensemble().pass_count(); })
-        .def_property_readonly(
-            "device_ms", [](const PyEnsemble& self) { return self.ensemble().device_milliseconds(); },
-            "Milliseconds that the device spent on the last step.")
-        .def_property_readonly("device", [](const PyEnsemble& self) { return self.device().info().name; })
-        .def_property_readonly("validation_count",
-                               [](const PyEnsemble& self) { return self.device().validation_count(); });
-    ensemble.def(
-        "bodies",
-        [](const PyEnsemble& self) {
-            std::vector<std::vector<BodyState>> all;
-            for (std::size_t k = 0; k < self.ensemble().size(); ++k) all.push_back(self.ensemble().bodies(k));
-            return body_arrays(all, true);
-        },
-        "A dict of arrays [member, body, ...] of the colliders with a mass, as Simulation.bodies().");
-    define_told(
-        ensemble, "step", [](PyEnsemble& self, const Told& told) { self.step(told); },
-        "Computes the next frame of every member. wind: [member, 3], m/s, during the step. pins: [member, pin, 3] "
-        "or [..., 6]: m, and degrees about x, y, z, from where the scene has the pin, at the step's end. "
-        "colliders: [member, collider, 3 or 6] likewise; planes, spheres, boxes, ellipsoids, capsules, meshes, in "
-        "order. holds: bool [member, pin]: which pins hold; one that takes again has its particles where they are. "
-        "gravity: [member, 3], m/s^2. hands: [member, hand, 3 or 6]: where they are at the step's end, m and "
-        "degrees. grasps: int [member, hand, 2]: column and row of the particle that it holds, or [..., 4]: first "
-        "and last column and row, in the order column, row, column, row; -1: none. loads: [member, load, 3]: N, of "
-        "a load "
-        "that presses Pa, 0, 0, during the step. body_forces: [member, body, 3 or 6]: N and N m on colliders with "
-        "a "
-        "mass, during the step. body_impulses: likewise N s and N m s at its start. body_velocities: m/s and rad/s "
-        "at its start, of those bodies that body_sets, bool [member, body], names, or of all. "
-        "What is not given stays as it is. Raises ActionError, and then no member went on.");
+        .def("picture", &picture_of, py::arg("member"), "uint8 [height, width, 4], sRGB and 255: the member now.");
+    define_member_step(ensemble);
+    define_member_facts(ensemble);
     define_member_states(ensemble);
     define_member_arrays(ensemble);
 }

@@ -358,6 +358,34 @@ void define_arrays(py::class_<PySimulation>& simulation) {
         .def("uv", &uv, which, "float32 [row, column, 2]: texture coordinates.");
 }
 
+void define_facts(py::class_<PySimulation>& simulation) {
+    simulation
+        .def_property_readonly("cloths",
+                               [](const PySimulation& self) {
+                                   std::vector<std::string> names;
+                                   for (const Cloth& cloth : self.scene().cloths) names.push_back(cloth.name);
+                                   return names;
+                               })
+        .def_property_readonly("method", [](const PySimulation& self) { return self.simulation().facts().method; })
+        .def_property_readonly("device", [](const PySimulation& self) { return self.device().info().name; })
+        .def_property_readonly("validation_count",
+                               [](const PySimulation& self) { return self.device().validation_count(); });
+}
+
+void define_states(py::class_<PySimulation>& simulation) {
+    simulation.def_property_readonly("can_save", [](const PySimulation& self) { return self.simulation().can_save(); })
+        .def(
+            "save", [](const PySimulation& self) { return state_dict(self.simulation().save()); },
+            "What the next frames depend on: a dict of bytes, for restore() of a simulation of the same scene.")
+        .def("restore", [](PySimulation& self, const py::dict& state) { self.simulation().restore(state_of(state)); })
+        .def(
+            "save_scene",
+            [](const PySimulation& self, const py::object& path) {
+                py::module_::import("pathlib").attr("Path")(path).attr("write_text")(self.told_scene());
+            },
+            py::arg("path"), "Writes a scene file that is told what act() told, and so has the same bits.");
+}
+
 void define_simulation(py::module_& module) {
     py::class_<PySimulation> simulation(module, "Simulation", "A scene on a device, frame by frame.");
     simulation
@@ -395,33 +423,14 @@ void define_simulation(py::module_& module) {
                 const auto& failure = self.frame().failure;
                 return failure ? std::optional(failure->reason) : std::nullopt;
             },
-            "Why the frame is no result, or None; with keep_failed.")
-        .def_property_readonly("cloths",
-                               [](const PySimulation& self) {
-                                   std::vector<std::string> names;
-                                   for (const Cloth& cloth : self.scene().cloths) names.push_back(cloth.name);
-                                   return names;
-                               })
-        .def_property_readonly("method", [](const PySimulation& self) { return self.simulation().facts().method; })
-        .def_property_readonly("device", [](const PySimulation& self) { return self.device().info().name; })
-        .def_property_readonly("validation_count",
-                               [](const PySimulation& self) { return self.device().validation_count(); })
-        .def_property_readonly("can_save", [](const PySimulation& self) { return self.simulation().can_save(); })
-        .def(
-            "save", [](const PySimulation& self) { return state_dict(self.simulation().save()); },
-            "What the next frames depend on: a dict of bytes, for restore() of a simulation of the same scene.")
-        .def("restore", [](PySimulation& self, const py::dict& state) { self.simulation().restore(state_of(state)); });
-    simulation.def(
-        "save_scene",
-        [](const PySimulation& self, const py::object& path) {
-            py::module_::import("pathlib").attr("Path")(path).attr("write_text")(self.told_scene());
-        },
-        py::arg("path"), "Writes a scene file that is told what act() told, and so has the same bits.");
+            "Why the frame is no result, or None; with keep_failed.");
     define_told(
         simulation, "act", [](PySimulation& self, const Told& told) { self.act(told); },
         "Tells what holds from the next frame on (from frame 1, if there was no step yet); arrays as those of "
         "Ensemble.step, without the axis of members: wind [3], pins [pin, 3 or 6] and so on. Needs controls or hands. "
         "What is not given stays as it is. Raises ActionError, and then nothing has changed.");
+    define_facts(simulation);
+    define_states(simulation);
     define_arrays(simulation);
 }
 

@@ -32,7 +32,7 @@ struct SeamSide {
 /// unlike numbers of particles, those of the finer side lie between those of the coarser one (world/seams.h).
 struct Seam {
     SeamSide a, b;
-    double close = 0;  ///< s: they are drawn together from the start until then; 0: they start together
+    double close = 0;             ///< s: they are drawn together from the start until then; 0: they start together
     std::optional<double> rip{};  ///< N/m: the load at which places of it come apart; nothing: none does
     bool operator==(const Seam&) const = default;
 };
