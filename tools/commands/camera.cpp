@@ -53,7 +53,7 @@ start, under the same angle; without one, from the right, the front and above.
 
 Examples:
   drape camera scenes/flag.json
-  drape camera scenes/flag.json --size 720x1280 -s 60
+  drape camera scenes/flag.json --size 720x1280
   drape render scenes/flag.json -o out/fits \
       --set "/camera=$(drape camera scenes/flag.json)"
 )text",
