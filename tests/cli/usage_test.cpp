@@ -130,7 +130,7 @@ TEST_P(Usage, IsRefusedAndNothingIsTouched) {
 const WrongUsage wrong_usages[] = {
     {"NoCommand",
      {},
-     "no command given: expected one of new, pattern, render, simulate, graph, check, schema, devices"},
+     "no command given: expected one of new, pattern, render, simulate, camera, graph, check, schema, devices"},
     {"UnknownCommand", {"rendr", "SCENE"}, "unknown command 'rendr': did you mean 'render'?"},
     {"NoScene", {"render", "-o", "OUT"}, "drape render: SCENE is required"},
     {"NoOutput", {"render", "SCENE"}, "--output is required"},
