@@ -346,7 +346,7 @@ glsl::MomentumPush momentum_push(const SimulationModel& model, const ClothModel&
 
 namespace {
 
-/// What is known of seams before a cloth's forces are.
+/// Tells what is known of seams before a cloth's forces are.
 struct KnownSeams {
     SeamRest rest{};
     Vec3 given{};  ///< N s

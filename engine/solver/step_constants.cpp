@@ -62,7 +62,7 @@ bool seam_leads(Place p) {
 }
 bool seam_has_vectors(Place p) { return seam_stage(p) == glsl::seam_forces || seam_stage(p) == glsl::seam_normals; }
 bool has_seam_loads(Place p) { return has(p, Field::seam_loads); }
-/// What moves particles at seams pulls at these: springs, air, or by methods that do not iterate whole steps.
+/// Returns whether what moves particles pulls at seams: springs, air, or by methods that do not iterate whole steps.
 bool seam_pulls(Place p) {
     const int stage = seam_stage(p);
     return has_seam_loads(p) && (stage == glsl::seam_solved || stage == glsl::seam_forces ||

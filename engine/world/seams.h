@@ -25,7 +25,7 @@ struct SewnMember {
 /// Particles that are one, in ascending order; the first one is the leader, the others follow it.
 using SewnGroup = std::vector<SewnMember>;
 
-/// What a place bears before it comes apart.
+/// Tells what a place bears before it comes apart.
 struct SewnRip {
     double load = 0;       ///< N; 0: anything
     double length = 0;     ///< m: of the seams that is the place's

@@ -25,7 +25,7 @@ SeamStatistics seams_of(const SimulationModel& model, const Twin& twin, std::siz
 
 std::uint32_t substeps_of(SolverMethod method) { return method == SolverMethod::explicit_steps ? 64 : 12; }
 
-/// What a run of the strip shows.
+/// Tells what a run of the strip shows.
 struct Ripped {
     double load = 0;      ///< N/m: the largest before
     double expected = 0;  ///< N/m: in closed form, in the middle of the frame in which it rips

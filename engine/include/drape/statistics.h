@@ -27,7 +27,7 @@ struct ForceOnCloth {
     std::optional<std::array<double, 3>> worst{}, worst_moment{};
 };
 
-/// What seams that rip bear at a cloth.
+/// Tells what seams that rip bear at a cloth.
 struct SeamStatistics {
     double load = 0;           ///< N/m: the largest at a place that holds, averaged over the frame
     std::uint32_t ripped = 0;  ///< particles of the cloth at places that have come apart
