@@ -9,6 +9,7 @@
 namespace drape {
 namespace {
 
+constexpr std::string_view digits = "0123456789";
 constexpr std::string_view telling = "{}[]\",:-0123456789.eE/\\*tn \n\x01\x80\xC3";
 
 // Sanitizers see more in a round than its result, and take forty times as long for one: they have a fifth as many.
@@ -24,7 +25,7 @@ std::string damaged(std::mt19937& random, std::string text) {
     for (std::size_t i = 0; i < change_count && !text.empty(); ++i) {
         const std::size_t at = below(text.size());
         const char telling_char = telling[below(telling.size())];
-        switch (below(5)) {
+        switch (below(6)) {
             case 0:
                 text[at] = static_cast<char>(below(256));
                 break;
@@ -36,6 +37,11 @@ std::string damaged(std::mt19937& random, std::string text) {
                 break;
             case 3:
                 text.erase(at, 1 + below(8));
+                break;
+            case 4:
+                // Another digit leaves the text well-formed, so that what is read as well is damaged, too.
+                if (const auto digit = text.find_first_of(digits, at); digit != std::string::npos)
+                    text[digit] = digits[below(digits.size())];
                 break;
             default:
                 text.insert(at, text.substr(below(text.size()), below(64)));
