@@ -4,7 +4,7 @@
 #include "input/point_poses.h"
 #include "input/positions_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(array_npz)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     const auto values = [](const std::filesystem::path& path) {
         for (const input::Array& array : input::load_arrays(path))

@@ -47,7 +47,7 @@ void go_on(const std::vector<std::byte>& bytes) {
 }
 
 /// Throws Error and OutputError.
-void read(std::span<const std::byte> file) {
+void read_state(std::span<const std::byte> file) {
     std::string key, again_key;
     const RunCheckpoint checkpoint = checkpoint_of(decode_sections(checkpoint_format, file), key);
     const std::vector<std::byte> written = encode_sections(checkpoint_format, sections_of(checkpoint, key));
@@ -75,13 +75,13 @@ void try_to(const Read& read) {
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(checkpoint)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     std::vector<std::byte> file = fuzz::bytes_of(data, size);
     try_to([&] { read_record(file); });
     try_to([&] { go_on(file); });
-    try_to([&] { read(file); });
+    try_to([&] { read_state(file); });
     fuzz::repair(checkpoint_format, file);
-    try_to([&] { read(file); });
+    try_to([&] { read_state(file); });
     return 0;
 }

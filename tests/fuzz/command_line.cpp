@@ -4,7 +4,7 @@
 #include "program.h"
 #include "run/run.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(command_line)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     using fuzz::require;
     std::vector<std::string> words{"drape"};

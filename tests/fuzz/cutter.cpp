@@ -197,7 +197,7 @@ std::vector<glsl::vec4> moved(Dice& dice, std::vector<glsl::vec4> position) {
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(cutter)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     // The checks of expect_consistent throw where no test is running.
     GTEST_FLAG_SET(throw_on_failure, testing::UnitTest::GetInstance()->current_test_info() == nullptr);

@@ -1,6 +1,5 @@
-// The fuzz targets share this header. A target is a source of this folder with one LLVMFuzzerTestOneInput, and its row
-// in targets.tsv; `tools/fuzz` builds and runs it alone, fuzz_test replays the committed inputs through all of them,
-// each under a name of its own (CMakeLists.txt).
+// The fuzz targets share this header. A target is a source of this folder with one DRAPE_FUZZ_ENTRY, and its row in
+// targets.tsv; `tools/fuzz` builds and runs it alone, fuzz_test replays the committed inputs through all of them.
 #pragma once
 
 #include <cmath>
@@ -14,7 +13,12 @@
 
 #include "world/random.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// The function that takes an input: libFuzzer knows one name alone, a program with all of them needs one for each.
+#ifdef DRAPE_FUZZ_ALONE
+#define DRAPE_FUZZ_ENTRY(name) LLVMFuzzerTestOneInput
+#else
+#define DRAPE_FUZZ_ENTRY(name) fuzz_##name
+#endif
 
 namespace drape::fuzz {
 

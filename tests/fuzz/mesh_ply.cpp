@@ -1,7 +1,7 @@
 // A mesh in PLY gives a body or an error.
 #include "file_input.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(mesh_ply)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     fuzz::read_mesh_file("mesh.ply", data, size);
     return 0;

@@ -33,7 +33,7 @@ void repair(std::vector<std::uint8_t>& png) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(picture_png)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     const auto both = [](std::span<const std::uint8_t> png) {
         fuzz::read_file("picture.png", png.data(), png.size(), [](const auto& path) {

@@ -3,7 +3,7 @@
 #include "input/point_poses.h"
 #include "input/positions_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(point_cache)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     fuzz::read_file("cache.pc2", data, size, [](const auto& path) { input::read_poses(path, 6); });
     fuzz::read_file("cache.pc2", data, size, [](const auto& path) { input::read_positions(path, 3, 2); });

@@ -10,7 +10,7 @@ namespace {
 
 using fuzz::require;
 
-void read(std::span<const std::byte> file) {
+void read_reproducer(std::span<const std::byte> file) {
     Reproducer reproducer;
     try {
         reproducer = decode_reproducer(file);
@@ -31,11 +31,11 @@ void read(std::span<const std::byte> file) {
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(reproducer)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     std::vector<std::byte> file = fuzz::bytes_of(data, size);
-    read(file);
+    read_reproducer(file);
     fuzz::repair(reproducer_format, file);
-    read(file);
+    read_reproducer(file);
     return 0;
 }

@@ -92,7 +92,7 @@ void plan(const SceneDescription& scene) {
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(scene_text)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     std::string_view rest = fuzz::text_of(data, size);
     if (has_large_grid(std::string(rest))) return 0;

@@ -115,7 +115,7 @@ void check_plan(Dice& dice) {
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(size_planner)(const std::uint8_t* data, std::size_t size) {
     drape::fuzz::Dice dice({data, size});
     drape::check_budget(dice);
     drape::check_plan(dice);

@@ -5,7 +5,7 @@
 
 #include "file_input.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(svg_file)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     fuzz::read_file("drawing.svg", data, size, [](const std::filesystem::path& path) {
         for (const char* element : {"", "f", "c"}) try {

@@ -7,7 +7,7 @@
 #include "fuzz.h"
 #include "world/panel.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(svg_path)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     std::vector<OutlineCurve> curves;
     try {

@@ -84,7 +84,7 @@ void check_finite(const SimulationModel& model, Twin& twin, Watch& watch, std::u
 }  // namespace
 }  // namespace drape
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(twin)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     fuzz::Dice dice({data, size});
     const std::string text = fuzz::small_scene(dice, {});

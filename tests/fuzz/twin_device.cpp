@@ -127,7 +127,7 @@ int dlclose(void*) noexcept { return 0; }
 }
 #endif
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+extern "C" int DRAPE_FUZZ_ENTRY(twin_device)(const std::uint8_t* data, std::size_t size) {
     using namespace drape;
     fuzz::Dice dice({data, size});
     const std::string text = fuzz::small_scene(dice, {.longest_side = 7, .frames = 2, .substeps = 3});
