@@ -47,8 +47,8 @@ class MotionWatch {
     bool transfer(Archive& archive) {
         bool stated = worst_.has_value(), parts = parting_.has_value();
         archive(stated, parts, over_, hasty_.frames, hasty_.worst, hasty_.times);
-        if (stated && !worst_) worst_ = Position{};
-        if (parts && !parting_) parting_ = Parting{};
+        if (stated != worst_.has_value()) worst_ = stated ? std::optional(Position{}) : std::nullopt;
+        if (parts != parting_.has_value()) parting_ = parts ? std::optional(Parting{}) : std::nullopt;
         if (stated) archive(worst_->frame, worst_->error, worst_->excused, worst_->allowed);
         if (parts) archive(parting_->frame, parting_->parted, parting_->error);
         return true;
