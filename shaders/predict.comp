@@ -27,21 +27,12 @@ layout(set = 0, binding = 14, r32ui) uniform writeonly uimage2D line_control_out
 layout(constant_id = 2) const bool sewn_to_others = false;
 layout(set = 0, binding = 15, std430) readonly buffer SewnPlaces { SewnPlace sewn_places[]; };
 
-bool second_order;  // decided before anything has branched (docs/devices.md)
+#include "include/last_control.h"
 
-uint control_before(int texel) { return imageLoad(line_control_in, ivec2(texel, cloth_place())).x; }
+bool second_order;  // decided before anything has branched (docs/devices.md)
 
 void store_control(int texel, uint value) {
     imageStore(line_control_out, ivec2(texel, cloth_place()), uvec4(value, 0u, 0u, 0u));
-}
-
-LineControl last_control() {
-    if (sewn_to_others) {
-        uvec4 joined = sewn_places[push.joint].control;
-        return LineControl(joined.x, joined.y, joined.z);
-    }
-    return LineControl(control_before(control_order), control_before(control_wrong_lines),
-                       control_before(control_hold));
 }
 
 /// Every invocation decides, and one invocation of each cloth writes the decision.
