@@ -410,8 +410,9 @@ bool check_scene(const Members& members, SceneDescription& scene) {
     if (members["gravity"] && members["gravity_keys"])
         members["gravity"].warn("gravity is ignored beside gravity_keys, which have it");
     if (!cloths_meet(scene)) warn_of_touching(node, scene);
-    if (members.fit({"cloths", "seams", "colliders", "gravity_keys", "forces"}))
-        check_seams(node, members["seams"], scene);
+    if (members.fit({"cloths", "seams", "colliders", "gravity_keys", "forces"}) &&
+        check_seams(node, members["seams"], scene) && members.fit({"gas", "cutters"}))
+        check_gas(members["gas"], scene);
     check_oracles(members["oracles"], scene);
     if (members.fit({"cloths", "colliders"})) check_fields(members["colliders"], scene);
     if (members.fit({"cloths", "colliders", "solver"})) check_bodies(members, scene);

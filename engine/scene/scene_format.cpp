@@ -5,6 +5,7 @@
 
 #include "scene/action_rows.h"
 #include "scene/collider_rows.h"
+#include "scene/gas_rows.h"
 #include "scene/look_rows.h"
 #include "scene/outline_rows.h"
 #include "scene/particle_rows.h"
@@ -418,6 +419,8 @@ const Object<SceneDescription> scene{
          "by "
          "line or relax, with sides of as many particles each, and without self_collision, beside which no forces are "
          "told of sewn cloths."},
+        {"gas", &SceneDescription::gas, list<Gas>(gas, "an array of at most 1024 gases", 0, 1024),
+         "What cloths that are sewn to closed surfaces close in."},
         {"colliders", &SceneDescription::colliders, colliders, "Solid bodies."},
         {"overlap", &SceneDescription::overlap, choice<Overlap>(overlap_spellings),
          "Cloth that starts inside a collider, or through another cloth that it would meet, which is warned of: "

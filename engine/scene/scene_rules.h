@@ -108,6 +108,8 @@ bool set_twist(const Members& members, Rigidity& rigidity);
 bool check_scene(const Members& members, SceneDescription& scene);
 /// Checks that the cloths can be sewn as the scene wants, and finds out what its points are from.
 bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescription& scene);
+/// Checks that gas is closed in.
+bool check_gas(const SceneNode& gas, const SceneDescription& scene);
 /// Warns of what a scene may have, but hardly means.
 void warn_of_doubts(const Members& members, const SceneDescription& scene);
 /// They are what a pin, hand, collider or body is told: three in m, N and so on, then three in degrees, N m and so on,

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "scene/scene_rules.h"
+#include "world/gas.h"
 #include "world/seams.h"
 
 namespace drape {
@@ -25,6 +26,12 @@ bool check_seams(const SceneNode& cloths, const SceneNode& seams, SceneDescripti
                 side->corner = outline_corner(cloths.element(*cloth).member("outline"));
     const std::vector<SeamFault> faults = seam_faults(scene);
     for (const SeamFault& fault : faults) node_at(seams, fault.below).fail(fault.text);
+    return faults.empty();
+}
+
+bool check_gas(const SceneNode& gas, const SceneDescription& scene) {
+    const std::vector<GasFault> faults = gas_faults(scene);
+    for (const GasFault& fault : faults) node_at(gas, fault.below).fail(fault.text);
     return faults.empty();
 }
 

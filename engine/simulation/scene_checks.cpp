@@ -9,6 +9,7 @@
 #include "drape/scene_reader.h"
 #include "world/body_faults.h"
 #include "world/cloth_keys.h"
+#include "world/gas.h"
 #include "world/mass_properties.h"
 #include "world/overlap.h"
 #include "world/panel.h"
@@ -264,6 +265,9 @@ const SceneDescription& checked_scene(const SceneDescription& scene) {
     if (result.errors.empty())
         for (const SeamFault& fault : seam_faults(scene))
             result.errors.push_back({"scene", 0, 0, "/seams" + fault.below, fault.text});
+    if (result.errors.empty())
+        for (const GasFault& fault : gas_faults(scene))
+            result.errors.push_back({"scene", 0, 0, "/gas" + fault.below, fault.text});
     if (!result.errors.empty()) throw SceneFailure(std::move(result));
     return scene;
 }

@@ -95,7 +95,7 @@ bool gravity_changes(const SceneDescription& scene) {
 }
 
 bool has_weather(const SceneDescription& scene) {
-    return scene.wind.blows() || gravity_changes(scene) ||
+    return scene.wind.blows() || gravity_changes(scene) || !scene.gas.empty() ||
            std::ranges::any_of(scene.cloths, [](const Cloth& cloth) { return !cloth.loads.empty(); });
 }
 
@@ -115,6 +115,8 @@ bool weather_stays(const SceneDescription& scene, double from, double to) {
     for (const Cloth& cloth : scene.cloths)
         for (const Load& load : cloth.loads)
             if (!is_steady(load.force_keys, from, to) || !is_steady(load.pressure_keys, from, to)) return false;
+    for (const Gas& gas : scene.gas)
+        if (!is_steady(gas.volume_keys, from, to)) return false;
     return is_steady(scene.wind.keys, from, to) && is_steady(scene.gravity_keys, from, to);
 }
 

@@ -26,7 +26,7 @@ Vec3 force_at(const Load& load, double time);
 double pressure_at(const Load& load, double time);
 /// Returns the largest that a load has, without its direction: N, or Pa.
 double strongest(const Load& load);
-/// Returns whether wind blows, gravity changes or something loads a cloth; then every substep receives all three.
+/// Returns whether wind blows, gravity changes, or loads or gas act on a cloth; then every substep receives all of it.
 bool has_weather(const SceneDescription& scene);
 /// Returns the factor of a cloth's stiffness in a frame: linear between two keys, at the frame's middle; in frame 0,
 /// which has no length, at its time.

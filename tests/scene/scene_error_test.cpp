@@ -103,7 +103,8 @@ const Malformed syntax_cases[] = {
      "{\"cloths\": [{}],\n\"" + std::string(16'000'000, 'k') + "\": 0}",
      {"2:1: /" + std::string(77, 'k') +
       "...: expected one of $schema, name, time, up, gravity, gravity_keys, wind, cloths, "
-      "seams, colliders, overlap, cutters, solver, forces, actions, camera, lights, ambient, ambient_ground, image, "
+      "seams, gas, colliders, overlap, cutters, solver, forces, actions, camera, lights, ambient, ambient_ground, "
+      "image, "
       "oracles, "
       "got the "
       "unknown "

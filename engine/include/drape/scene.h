@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "drape/actions.h"
+#include "drape/gas.h"
+#include "drape/key.h"
 #include "drape/look.h"
 #include "drape/seam.h"
 #include "drape/solid.h"
@@ -38,13 +40,6 @@ struct VectorKey {
     double time = 0.0;  ///< s
     Vec3 value{0, 0, 0};
     bool operator==(const VectorKey&) const = default;
-};
-
-/// One key of a number that changes.
-struct NumberKey {
-    double time = 0.0;  ///< s
-    double value = 0.0;
-    bool operator==(const NumberKey&) const = default;
 };
 
 /// One key of a factor that changes.
@@ -423,6 +418,7 @@ struct SceneDescription {
     Wind wind;
     std::vector<Cloth> cloths;
     std::vector<Seam> seams;
+    std::vector<Gas> gas;  ///< each closed in by cloths of its own
     std::vector<Collider> colliders;
     Overlap overlap = Overlap::resolve;
     std::vector<Cutter> cutters;
