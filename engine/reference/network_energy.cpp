@@ -2,9 +2,11 @@
 // fast kernel of network_kernel.h is tested against it.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/vectors.h"
 #include "reference/spring_network.h"
+#include "world/gas.h"
 #include "world/gust.h"
 #include "world/weather.h"
 
@@ -21,6 +23,15 @@ Vec3 second_difference(const BendingElement& element, std::span<const Vec3> posi
     Vec3 sum{};
     for (std::size_t k = 0; k < 4; ++k) add_scaled(sum, element.coefficient[k], position[element.particle[k]]);
     return sum;
+}
+
+/// Returns the volume that faces close in, m^3.
+double volume_in(const NetworkGas& gas, std::span<const Vec3> position) {
+    double sum = 0;
+    for (const auto& [a, b, c, d] : gas.faces)
+        for (const auto& [u, v, w] : {std::array{a, b, d}, {b, c, a}, {c, d, b}, {d, a, c}})
+            sum += dot(position[u], cross(position[v], position[w]));
+    return sum / 12;
 }
 
 /// Adds a 3x3 block at particles (p, q), p != q taken once into the lower triangle.
@@ -94,6 +105,26 @@ void SpringNetwork::add_outer_forces(std::span<const Vec3> position, std::span<c
                                      std::span<Vec3> force) const {
     add_wind_force(position, velocity, time, force);
     add_load_forces(position, time, force);
+    add_gas_forces(position, time, force);
+}
+
+void SpringNetwork::add_gas_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const {
+    for (const NetworkGas& each : gas) {
+        const double pressure = gas_pressure(each.gas, time, volume_in(each, position));
+        for (const auto& [a, b, c, d] : each.faces)
+            for (const auto& [p, q, r, s] : {std::array{a, b, c, d}, {b, c, d, a}, {c, d, a, b}, {d, a, b, c}})
+                for (const auto& [u, v] : {std::pair{q, s}, {q, r}, {r, s}})
+                    add_scaled(force[p], pressure / 12, cross(position[u], position[v]));
+    }
+}
+
+double SpringNetwork::gas_energy(std::span<const Vec3> position, double time) const {
+    double energy = 0;
+    for (const NetworkGas& each : gas) {
+        const double volume = volume_in(each, position);
+        energy += each.gas.ambient * (volume - gas_at(each.gas, time) * std::log(volume));
+    }
+    return energy;
 }
 
 void SpringNetwork::add_load_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const {

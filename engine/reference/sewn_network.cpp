@@ -1,9 +1,12 @@
 #include "reference/sewn_network.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "base/vectors.h"
+#include "world/gas.h"
 #include "world/seams.h"
+#include "world/start.h"
 
 namespace drape {
 
@@ -68,6 +71,25 @@ void add_elements(const SpringNetwork& own, const std::vector<std::uint32_t>& at
     }
 }
 
+/// Returns the faces of a gas, as its cloths turn them outwards.
+NetworkGas gas_in(const SceneDescription& scene, const Gas& gas,
+                  const std::vector<std::vector<std::uint32_t>>& particle) {
+    NetworkGas made{gas, {}};
+    for (const auto& [cloth, sign] : gas_walls(scene, gas)) {
+        const std::vector<std::uint32_t>& at = particle[cloth];
+        const std::vector<bool> missing = missing_cells(scene.cloths[cloth]);
+        const std::size_t columns = scene.cloths[cloth].grid[0];
+        for (std::size_t cell = 0; cell < missing.size(); ++cell) {
+            if (missing[cell]) continue;
+            const std::size_t k = cell / (columns - 1) * columns + cell % (columns - 1);
+            std::array<std::uint32_t, 4> face{at[k], at[k + 1], at[k + columns + 1], at[k + columns]};
+            if (sign < 0) std::swap(face[1], face[3]);
+            made.faces.push_back(face);
+        }
+    }
+    return made;
+}
+
 }  // namespace
 
 SewnNetwork sewn_network(const SceneDescription& scene, const NetworkOptions& options) {
@@ -83,6 +105,7 @@ SewnNetwork sewn_network(const SceneDescription& scene, const NetworkOptions& op
         add_particles(own, sewn.particle[cloth], all);
         add_elements(own, sewn.particle[cloth], all);
     }
+    for (const Gas& gas : scene.gas) all.gas.push_back(gas_in(scene, gas, sewn.particle));
     return sewn;
 }
 

@@ -15,8 +15,8 @@ struct SewnNetwork {
 };
 
 /// Joins the networks of a scene's cloths: a sewn particle has the masses, springs and quarters of air of all
-/// its copies, their mean velocity by mass, and the pin of one of them. Throws std::invalid_argument as SpringNetwork
-/// does, and where cloths are loaded, or damped unlike each other.
+/// its copies, their mean velocity by mass, and the pin of one of them; gas is closed in as in the scene. Throws
+/// std::invalid_argument as SpringNetwork does, and where cloths are loaded, or damped unlike each other.
 SewnNetwork sewn_network(const SceneDescription& scene, const NetworkOptions& options = {});
 
 }  // namespace drape

@@ -318,6 +318,15 @@ void add(StableHash& hash, const NetworkLoad& load) {
         for (const double each : {key.time, key.value}) hash.add(each);
 }
 
+void add(StableHash& hash, const NetworkGas& gas) {
+    for (const auto& face : gas.faces)
+        for (const std::uint32_t p : face) hash.add(std::uint64_t{p});
+    hash.add(gas.gas.volume.value_or(0));
+    hash.add(gas.gas.ambient);
+    for (const NumberKey& key : gas.gas.volume_keys)
+        for (const double each : {key.time, key.value}) hash.add(each);
+}
+
 void add(StableHash& hash, const Wind& wind) {
     add(hash, wind.velocity);
     for (const double value : {wind.gust.amplitude, wind.gust.period, wind.air_density, wind.drag, wind.lift})
@@ -356,7 +365,9 @@ std::uint64_t SpringNetwork::fingerprint() const {
     add(hash, gravity_keys);
     hash.add(damping);
     add(hash, wind);
-    for (const NetworkLoad& load : loads) add(hash, load);  // without any the fingerprint is as before there were any
+    // Without any of these the fingerprint is as before there were any.
+    for (const NetworkLoad& load : loads) add(hash, load);
+    for (const NetworkGas& each : gas) add(hash, each);
     return hash.value();
 }
 

@@ -53,6 +53,13 @@ struct NetworkLoad {
     std::vector<double> share, factor;
 };
 
+/// A gas of the scene and the faces that close it in: the corners of each, as they go around its outside. The volume is
+/// the mean of both ways to halve each face.
+struct NetworkGas {
+    Gas gas;
+    std::vector<std::array<std::uint32_t, 4>> faces;
+};
+
 struct NetworkState {
     std::vector<Vec3> position;  ///< m
     std::vector<Vec3> velocity;  ///< m/s
@@ -100,6 +107,7 @@ struct SpringNetwork {
     double damping = 0;                   ///< 1/s: acceleration -damping * velocity
     Wind wind;
     std::vector<NetworkLoad> loads;
+    std::vector<NetworkGas> gas;  ///< of sewn networks (reference/sewn_network.h)
 
     std::size_t particle_count() const { return mass.size(); }
     /// Returns whether a particle is held at `time`; from its release on it is free.
@@ -116,6 +124,8 @@ struct SpringNetwork {
     double gravity_energy(std::span<const Vec3> position) const;  ///< J, 0 at the origin, pinned ones included
     double spring_energy(std::span<const Vec3> position) const;   ///< J
     double bending_energy(std::span<const Vec3> position) const;  ///< J
+    /// J: ambient (V - Vn ln V) of each gas at a time, s. Where Vn stays it is kept with the other energies.
+    double gas_energy(std::span<const Vec3> position, double time) const;
     /// Sums gravity, springs and bending, J.
     double potential_energy(std::span<const Vec3> position) const;
 
@@ -124,12 +134,14 @@ struct SpringNetwork {
     /// Returns what gravity is more at a time (s) than at the start, m/s^2.
     Vec3 more_gravity(double time) const;
     /// Returns whether anything but gravity acts from outside.
-    bool has_outer_forces() const { return wind.blows() || !loads.empty(); }
+    bool has_outer_forces() const { return wind.blows() || !loads.empty() || !gas.empty(); }
     /// Adds what acts on the particles from outside, N, beside gravity: wind and loads.
     void add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                           std::span<Vec3> force) const;
     /// Adds the loads' forces (N). A pressure acts on each quarter of a cell by its area, towards u x v.
     void add_load_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const;
+    /// Adds the pressures of gas (N): minus the derivative of gas_energy.
+    void add_gas_forces(std::span<const Vec3> position, double time, std::span<Vec3> force) const;
     /// Adds the wind's force (N) by the scene's formula per quarter of a cell, to its particle.
     void add_wind_force(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                         std::span<Vec3> force) const;
