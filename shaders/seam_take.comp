@@ -33,6 +33,10 @@ bool is_between(SewnParticle particle) { return sews_between && particle.between
 void take_vector(SewnParticle particle) {
     ivec2 at = particle.at.xy;
     vec4 sum = sewn_places[particle.at.z].vector;
+    if (push.stage == seam_areas) {
+        imageStore(wind_force_out, at, sum);
+        return;
+    }
     vec3 own = imageLoad(wind_force_in, at).xyz;
     if (push.stage == seam_forces) {
         vec4 force = own_force(sum, particle.parts.y);

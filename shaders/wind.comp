@@ -2,12 +2,14 @@
 // invocation goes down some adjacent columns of particles and keeps the rows above and below, so that most particles
 // are loaded once. Where `masked`, an image says which quarters and neighbours a particle has (holes, cuts). Where
 // gravity changes, what it is more than at the start is a force here, too, and so are the loads on a particle, up to
-// `load_depth`. Where it `books`, it sums the forces of air and loads.
+// `load_depth`, and the pressure of gas that the cloth `encloses`. Where it `books`, it sums the forces of air and loads.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shared/gas_types.h"
 #include "shared/simulation_types.h"
 #include "include/push.h"
 #include "include/wind.h"
+#include "include/gas.h"
 
 layout(local_size_x = workgroup_width) in;
 layout(constant_id = 0) const bool advance = false;    // the positions lack the last substep's displacement
@@ -30,6 +32,9 @@ layout(constant_id = 24) const bool masked = false;
 layout(set = 0, binding = 4, r32ui) uniform readonly uimage2D air;
 layout(constant_id = 3) const int load_depth = 0;  // texels of a particle in `loads`
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D loads;
+layout(constant_id = 4) const bool encloses = false;
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D gas;
+const bool loaded = load_depth > 0 || encloses;
 
 struct Member {
     vec3 position, displacement;
@@ -44,7 +49,8 @@ int first_column;
 float per_newton;                   // units of impulse of a newton
 ImpulseSum by_air = no_impulse();  // on the invocation's particles
 ImpulseSum by_loads = no_impulse();
-int first_load;  // in `wind`, of the cloth
+int first_load;      // in `wind`, of the cloth
+float gas_pressure;  // Pa
 
 /// Loads a row; past the grid's border, the row on the border again.
 Row load_row(int y) {
@@ -75,6 +81,17 @@ vec3 loads_on(ivec2 texel, vec3 area) {
     return sum;
 }
 
+/// Returns `sum` plus what gas gives to the c-th particle of a row.
+vec3 with_gas(vec3 sum, Row above, Row row, Row below, int c, uint air) {
+    Member own = row.members[c];
+    GasEdges edges =
+        GasEdges(edge_between(own, row.members[c - 1]), edge_between(own, row.members[c + 1]),
+                 edge_between(own, above.members[c]), edge_between(own, below.members[c]),
+                 edge_between(own, above.members[c - 1]), edge_between(own, above.members[c + 1]),
+                 edge_between(own, below.members[c - 1]), edge_between(own, below.members[c + 1]));
+    return gas_force(sum, gas_area(edges, air), gas_pressure, push.gas_sign);
+}
+
 void store_row(Row above, Row row, Row below, int y) {
     for (int c = 0; c < strip_columns; ++c) {
         ivec2 texel = ivec2(first_column + c, y);
@@ -92,10 +109,12 @@ void store_row(Row above, Row row, Row below, int y) {
         WindForce sum = particle_wind_force(edges, felt, relative, push.inverse_step, push.drag_coefficient,
                                             push.lift_coefficient, push.spacing);
         if (books) by_air = with_impulse(by_air, sum.force, per_newton);
-        if (load_depth > 0) {
-            vec3 loaded = loads_on(texel, area_vector(all_edges, felt));
-            if (books) by_loads = with_impulse(by_loads, loaded, per_newton);
-            sum.force = with_loads(sum.force, loaded, LOAD(position, texel).w);
+        if (loaded) {
+            vec3 borne = empty_sum();
+            if (load_depth > 0) borne = loads_on(texel, area_vector(all_edges, felt));
+            if (encloses) borne = with_gas(borne, above, row, below, c + 1, felt);
+            if (books) by_loads = with_impulse(by_loads, borne, per_newton);
+            sum.force = with_loads(sum.force, borne, LOAD(position, texel).w);
         }
         if (weighs) sum.force = add_weight(sum.force, more_gravity, push.inner_mass, LOAD(position, texel).w);
         STORE_VECTOR(wind_force, texel, vec4(sum.force, sum.drag));
@@ -105,6 +124,8 @@ void store_row(Row above, Row row, Row below, int y) {
 void main() {
     int inputs = (push.first + given.substep) * weather_vectors;
     wind_velocity = wind[inputs].xyz;  // before anything branches (docs/devices.md)
+    gas_pressure = 0.0f;
+    if (encloses) gas_pressure = imageLoad(gas, ivec2(0, cloth_place())).x;
     first_load = inputs + (weighs ? 2 : 1) + push.first_load;
     if (weighs) more_gravity = wind[inputs + 1].xyz;
     if (books) per_newton = units_per_newton(impulse_units(), push.inverse_step, push.inner_mass);
@@ -121,5 +142,5 @@ void main() {
         if (y >= end) break;
     }
     if (books) book(impulse_air, 0, by_air);
-    if (books && load_depth > 0) book(impulse_loads, 0, by_loads);
+    if (books && loaded) book(impulse_loads, 0, by_loads);
 }

@@ -30,13 +30,18 @@ std::optional<KeptTurn> turn_of(const SceneDescription& scene, const ClothGeomet
     return known ? kept_turn(scene, cloth) : std::nullopt;
 }
 
-/// Lets loads act from the start on, as gravity does: each particle's displacement before it has their half kick.
-void kick(const Cloth& cloth, const MethodSettings& settings, ClothModel& model) {
+/// Lets loads and gas act from the start on, as gravity does: each particle's displacement before it has their half
+/// kick.
+void kick(const SceneDescription& scene, std::size_t index, const MethodSettings& settings, ClothModel& model) {
+    const Cloth& cloth = scene.cloths[index];
     // Such damping leaves nothing of a kick (method_line.cpp).
-    if (cloth.loads.empty() || (model.scheme.second_order && model.damping * settings.substep_length > 1)) return;
+    if (model.scheme.second_order && model.damping * settings.substep_length > 1) return;
     std::vector<Vec3> at;
     for (const glsl::vec4& place : model.position) at.push_back({double{place.x}, double{place.y}, double{place.z}});
-    const std::vector<Vec3> force = load_forces(cloth, model.grid, at, 0);
+    const std::vector<Vec3> blown = start_gas_forces(scene, index, at);
+    if (cloth.loads.empty() && blown.empty()) return;
+    std::vector<Vec3> force = load_forces(cloth, model.grid, at, 0);
+    for (std::size_t k = 0; k < blown.size(); ++k) force[k] = plus(force[k], blown[k]);
     model.scheme.starts.resize(force.size(), model.scheme.start);
     const auto kick_of = [&](std::size_t particle) {
         MethodSettings pulled = settings;
@@ -74,7 +79,7 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
       turn(turn_of(scene, *this, options)),
       scheme(row_of(scene.solver.method).scheme(*this, settings_of(scene, substep_length, turn, options))) {
-    kick(scene.cloths[cloth_index], settings_of(scene, substep_length, turn, options), *this);
+    kick(scene, cloth_index, settings_of(scene, substep_length, turn, options), *this);
     set_constants(scene, scene.cloths[cloth_index], options.air || scene.wind.blows());
 }
 

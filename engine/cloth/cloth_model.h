@@ -2,6 +2,7 @@
 // C++ twin both start from exactly these floats, and neither changes them; CutTopology holds what a cut changes.
 #pragma once
 
+#include "cloth/gas.h"
 #include "cloth/method.h"
 #include "cloth/solver_choice.h"
 #include "shared/residual_types.h"
@@ -44,6 +45,7 @@ struct ClothModel : ClothGeometry {
     std::size_t collider_list = 0;  ///< contact keeps its particles out of this list of SimulationModel::kept_colliders
     std::optional<KeptTurn> turn;   ///< how the cloth turns freely
     MethodScheme scheme;
+    std::optional<ClothGas> gas;    ///< nothing: it closes none in
     glsl::WindPush wind;            ///< its member `substep` is set in each substep
     glsl::CollisionPush collision;  ///< its member `first` is set in each substep
     glsl::ResidualPush residual;    ///< constants of the check between iterations

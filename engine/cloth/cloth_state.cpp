@@ -37,6 +37,7 @@ bool drawn(Context c) { return c.needs.drawing; }
 bool masked(Context c) { return c.topology.masked(); }
 bool windy(Context c) { return c.model.windy; }
 bool loaded(Context c) { return c.cloth.load_depth > 0; }
+bool encloses(Context c) { return c.cloth.gas.has_value(); }
 bool windy_and_masked(Context c) { return windy(c) && masked(c); }
 bool stiffens(Context c) { return c.cloth.stiffens; }
 bool rests_bent(Context c) { return c.cloth.rests_bent(); }
@@ -68,6 +69,7 @@ bool tense(Context c) {
 bool spares_tension(Context c) { return c.cloth.scheme.spare_tension; }
 
 FieldExtent particles(Context c) { return {c.cloth.grid.columns(), c.cloth.grid.rows()}; }
+FieldExtent all_particles(Context c) { return {c.cloth.grid.particle_count()}; }
 FieldExtent spring_list(Context c) {
     return {c.cloth.grid.columns() * (c.cloth.rest_scales.empty() ? 1u : 2u), c.cloth.grid.rows()};
 }
@@ -114,7 +116,7 @@ std::size_t draw_list_room(Context c, std::size_t count) {
 /// Shaders see these fields as images and, where they are `buffered`, as buffers.
 constexpr FieldView stored = FieldView::image_and_buffer;
 
-/// Returns the rows of the table up to the loads.
+/// Returns the rows of the table up to loads and gas.
 std::vector<FieldRow> motion_rows() {
     using enum FieldLife;
     using enum FieldView;
@@ -150,6 +152,12 @@ std::vector<FieldRow> motion_rows() {
         {Field::wind_force, "wind force", stored, vector, frame, windy, particles},
         {Field::loads, "loads", image, vector, constant, loaded, load_list,
          [](Context c) { return bytes_of_list(c.cloth.loads); }},
+        {Field::gas, "gas", image, vector, state, encloses, [](Context) { return FieldExtent{glsl::gas_texels}; },
+         [](Context c) {
+             return bytes_of_list(std::vector{c.cloth.gas->start.now, c.cloth.gas->start.kept});
+         }},
+        {Field::gas_shares, "gas shares", buffer, layout_of<glsl::vec2>(), constant, encloses, all_particles,
+         [](Context c) { return bytes_of_list(c.cloth.gas->shares); }},
     };
 }
 

@@ -41,6 +41,8 @@ enum class Field : std::uint8_t {
     angular_error,             ///< xyz: angular momentum that the frame's substeps took back (Rotation::taken)
     wind_force,                ///< N
     loads,                     ///< ClothGeometry::loads
+    gas,                       ///< GasState of what the cloth closes in, the same in all that do (gas_types.h)
+    gas_shares,                ///< ClothGas::shares
     impulses,                  ///< what changes the momentum in the frame (shared/impulse_types.h)
     contact_impulses,          ///< xyz: of these what contact gave to each particle, masses of an inner particle x m
     bodies,                    ///< of a member's first cloth: its bodies (shared/body_types.h), of which

@@ -276,7 +276,7 @@ std::vector<ForceSource> force_sources(const SimulationModel& model, std::size_t
     if (std::ranges::any_of(cloth.dynamic_pins, [](const DynamicPin& pin) { return pin.hand.has_value(); }))
         all.push_back({ForceCause::hands, scene.cloths[index].pins.size(), "hands"});
     add(scene.wind.blows() || model.options.air, ForceCause::air, "air");
-    add(cloth.load_depth > 0, ForceCause::loads, "loads");
+    add(cloth.load_depth > 0 || cloth.gas, ForceCause::loads, "loads");
     add(cloth.damping > 0, ForceCause::damping, "damping");
     for (std::size_t k = 0; k < scene.colliders.size(); ++k)
         all.push_back({ForceCause::colliders, k,

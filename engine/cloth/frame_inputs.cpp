@@ -6,6 +6,7 @@
 
 #include "base/vectors.h"
 #include "world/collider_pose.h"
+#include "world/gas.h"
 #include "world/gust.h"
 #include "world/motion.h"
 #include "world/weather.h"
@@ -157,7 +158,7 @@ glsl::PinMotion pin_motion(const DynamicPin& pin, double start, double end, doub
 
 std::size_t weather_vectors(const SimulationModel& model) {
     if (!model.windy) return 0;
-    std::size_t count = model.weighs ? 2 : 1;
+    std::size_t count = (model.weighs ? 2 : 1) + model.scene.gas.size();
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth)
         if (model.cloths[cloth].member == 0) count += model.scene.cloths[cloth].loads.size();
     return count;
@@ -228,6 +229,8 @@ void take_frame_inputs(const SimulationModel& model, std::uint32_t frame, FrameI
                 const Vec3 force = force_at(load, middle);
                 inputs.wind.push_back(row({force[0], force[1], force[2]}, 0, pressure_at(load, middle)));
             }
+        for (const Gas& gas : scene.gas)
+            inputs.wind.push_back({static_cast<float>(gas_at(gas, 0.5 * (start + end))), 0, 0, 0});
         for (const double closed : model.closings)
             inputs.openings.push_back(
                 {{static_cast<float>(opening_at(start, closed)), static_cast<float>(opening_at(end, closed))}});

@@ -39,7 +39,8 @@ void add_deformation(glsl::ColliderRecord& record, double share, double way);
 
 struct FrameInputs {
     /// By member and substep, the wind, m/s; where gravity changes, the difference of gravity from the start, m/s^2; of
-    /// each load of the member's cloths the force, N, and beside it the pressure, Pa. Empty without any of it.
+    /// each load of the member's cloths the force, N, and beside it the pressure, Pa; of each gas the volume at ambient
+    /// pressure, m^3. Empty without any of it.
     std::vector<glsl::vec4> wind;
     std::vector<glsl::SeamOpening> openings;      ///< by substep, of each time of SimulationModel::closings
     std::vector<float> stiffness;                 ///< by cloth, the factor of its stiffness; empty: none changes

@@ -174,6 +174,23 @@ void join_orders(const SimulationModel& model, std::uint32_t substep, const std:
     }
 }
 
+/// Finds the pressures of gas in a substep or, where it `ends` a frame, the volumes there.
+void add_gas(const SimulationModel& model, const std::vector<int>& joints, std::uint32_t substep, bool ends,
+             std::vector<Step>& steps) {
+    if (model.scene.gas.empty()) return;
+    const auto& cloths = model.cloths;
+    for (std::size_t k = 0; k < cloths.size(); ++k)
+        if (cloths[k].gas || !cloths[k].sewn.empty())
+            steps.push_back({StepKind::gas_area, k, substep, 0, gas_area_push(cloths[k])});
+    hand_on(model, substep, glsl::seam_areas, steps);
+    for (std::size_t k = 0; k < cloths.size(); ++k)
+        if (cloths[k].gas) steps.push_back({StepKind::gas_sum, k, substep, 0, gas_sum_push(cloths[k])});
+    for (std::size_t k = 0; k < cloths.size(); ++k)
+        if (cloths[k].gas)
+            steps.push_back(
+                {StepKind::gas_pressure, k, substep, 0, gas_push(model, cloths[k], substep, joints[k], ends)});
+}
+
 /// Adds a substep of cloths that are sewn: they take turns, and what one does to a seam the others get before theirs.
 class SewnSubstep {
   public:
@@ -189,14 +206,15 @@ class SewnSubstep {
     void add() {
         for (Substep& part : parts_) part.release();
         if (std::ranges::any_of(model_.cloths, &ClothModel::has_release)) hand_on(glsl::seam_released);
+        const bool has_orders = model_.cloths.front().scheme.second_order;
+        if (has_orders) join_orders(model_, substep_, joints_, steps_);
+        add_gas(model_, joints_, substep_, false, steps_);
         for (Substep& part : parts_) part.wind();
         if (model_.windy && model_.method().iterates()) hand_on(glsl::seam_forces);
         // Explicit steps count by what they change, so each has to know where it begins.
         if (!model_.method().iterates() &&
             std::ranges::any_of(model_.cloths, [](const ClothModel& cloth) { return lies_between(cloth.sewn); }))
             hand_on(glsl::seam_begun);
-        const bool has_orders = model_.cloths.front().scheme.second_order;
-        if (has_orders) join_orders(model_, substep_, joints_, steps_);
         for (std::size_t cloth = 0; cloth < parts_.size(); ++cloth)
             parts_[cloth].predict(has_orders ? joints_[cloth] : -1);
         hand_on(glsl::seam_predicted);
@@ -420,6 +438,7 @@ std::vector<Step> frame_steps(const SimulationModel& model) {
     steps.push_back({StepKind::advance, all_cloths, model.scene.solver.substeps});
     add_rips(model, steps);
     add_momenta(model, 1, steps);
+    add_gas(model, joints, model.scene.solver.substeps, true, steps);
     return steps;
 }
 

@@ -75,6 +75,13 @@ std::string loads(const std::vector<Load>& loads) {
     return boxes(loaded) + kinds;
 }
 
+std::string gases(const SceneDescription& scene) {
+    std::string text;
+    for (const Gas& gas : scene.gas)
+        text += fmt::format("{}in [{}]", text.empty() ? "" : ", ", fmt::join(gas.cloths, " "));
+    return text.empty() ? "none" : text;
+}
+
 /// Returns how two cloths differ in shape by one key.
 Difference cloth_difference(ClothKey key, const std::string& at, const Cloth& first, const Cloth& other) {
     const std::string pointer = fmt::format("{}{}", at, pointer_of(key));
@@ -175,6 +182,7 @@ std::optional<std::string> shape_difference(const SceneDescription& first, const
           differ("/gravity_keys", weight(first), weight(other)),
           differ("/seams", fmt::format("a list of {}", first.seams.size()),
                  fmt::format("a list of {}", other.seams.size())),
+          differ("/gas", gases(first), gases(other)),
           differ("/cutters", fmt::format("a list of {}", first.cutters.size()),
                  fmt::format("a list of {}", other.cutters.size()))})
         if (found) return found;

@@ -69,12 +69,15 @@ SimulationModel::SimulationModel(const std::vector<const SimulationModel*>& memb
                 each.sewn.at.z += static_cast<int>(sewn_count);
                 if (each.sewn.between.x >= 0) each.sewn.between.x += static_cast<int>(sewn_count);
             }
+            if (model.gas)
+                for (int* const at : {&model.gas->first, &model.gas->own}) *at += static_cast<int>(gas_sum_count);
             scene.cloths.push_back(one.scene.cloths[cloth]);
             scene.cloths.back().name = model.name;
         }
         bodies.push_back(one.bodies.front());
         bodies.back().first_list = kept_colliders.size();
         sewn_count += one.sewn_count;
+        gas_sum_count += one.gas_sum_count;
         kept_colliders.insert(kept_colliders.end(), one.kept_colliders.begin(), one.kept_colliders.end());
         colliders_move = colliders_move || one.colliders_move;
     }
@@ -124,13 +127,16 @@ void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
             "expected no seams where actions let pins go, take particles or turn gravity: they do not follow these "
             "yet");
     share_kicks();
+    gas_sum_count = add_gas(scene, cloths);
+    for (ClothModel& cloth : cloths)
+        if (cloth.gas) cloth.wind.gas_sign = static_cast<float>(cloth.gas->sign);
     if (cloths_meet(scene)) self_contact.emplace(scene, cloths, crossed);
 }
 
-/// What the loads of one cloth give to a sewn particle moves all that are sewn there.
+/// What the loads and the gas of one cloth give to a sewn particle moves all that are sewn there.
 void SimulationModel::share_kicks() {
     const auto is_loaded = [](const Cloth& cloth) { return !cloth.loads.empty(); };
-    if (sewn_count == 0 || std::ranges::none_of(scene.cloths, is_loaded)) return;
+    if (sewn_count == 0 || (scene.gas.empty() && std::ranges::none_of(scene.cloths, is_loaded))) return;
     std::vector<Vec3> kicks(sewn_count);
     const auto vector = [](const glsl::vec4& v) { return Vec3{double{v.x}, double{v.y}, double{v.z}}; };
     for (const ClothModel& cloth : cloths)

@@ -43,10 +43,11 @@ struct SimulationModel {
     MeshFields mesh_fields;            ///< distances to the colliders that are meshes
     bool windy;   ///< substeps have a wind pass: wind blows, actions may make it blow, or gravity changes
     bool weighs;  ///< the wind pass also adds the change of gravity since the start
-    bool colliders_move = false;   ///< some collider is key-framed, so each substep has records of its own
-    std::size_t member_count = 1;  ///< the number of scenes that the cloths belong to (ClothModel::member)
-    std::size_t sewn_count = 0;    ///< the number of places at which cloths are sewn (ClothModel::sewn)
-    std::vector<double> closings;  ///< s: closing_times
+    bool colliders_move = false;    ///< some collider is key-framed, so each substep has records of its own
+    std::size_t member_count = 1;   ///< the number of scenes that the cloths belong to (ClothModel::member)
+    std::size_t sewn_count = 0;     ///< the number of places at which cloths are sewn (ClothModel::sewn)
+    std::size_t gas_sum_count = 0;  ///< the number of sums that gas follows from (ClothModel::gas)
+    std::vector<double> closings;   ///< s: closing_times
     /// Returns the rounds over all colliders in a collision step; a single collider needs one, since it overlaps no
     /// other.
     std::uint32_t collision_rounds() const { return scene.colliders.size() > 1 ? 32 : 1; }

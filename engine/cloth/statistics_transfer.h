@@ -49,6 +49,11 @@ void transfer_statistics(Archive& archive, ClothStatistics& s) {
     if (s.seams) load = s.seams->load;
     archive(load, ripped);
     s.seams = load ? std::optional<SeamStatistics>({*load, ripped}) : std::nullopt;
+    std::optional<double> pressure;
+    double volume = s.gas ? s.gas->volume : 0;
+    if (s.gas) pressure = s.gas->pressure;
+    archive(pressure, volume);
+    s.gas = pressure ? std::optional<GasStatistics>({*pressure, volume}) : std::nullopt;
 }
 
 }  // namespace drape

@@ -10,6 +10,7 @@
 #include "drape/kernels.h"
 #include "shared/bend_types.h"
 #include "shared/body_types.h"
+#include "shared/gas_types.h"
 #include "shared/impulse_types.h"
 #include "shared/line_types.h"
 #include "shared/nested_types.h"
@@ -27,6 +28,9 @@ inline constexpr std::size_t most_loop_rounds = 60000;
 enum class StepKind {
     stiffness,
     release,
+    gas_area,
+    gas_sum,
+    gas_pressure,
     wind,
     predict,
     force,
@@ -85,7 +89,8 @@ using StepConstants =
                  glsl::BendPush, glsl::TwistPush, glsl::AllTwistPush, glsl::SpringPush, glsl::AllSpringsPush,
                  glsl::LinePush, glsl::NestedPush, glsl::RotationPush, glsl::SelfContactPush, glsl::SelfClothPush,
                  glsl::ContactTurnPush, glsl::ClearImpulsesPush, glsl::WorstImpulsesPush, glsl::MomentumPush,
-                 glsl::BodyMovePush, glsl::BodyStrikePush, glsl::SeamPush>;
+                 glsl::BodyMovePush, glsl::BodyStrikePush, glsl::SeamPush, glsl::GasAreaPush, glsl::GasSumPush,
+                 glsl::GasPush>;
 
 /// A step as a method plans it, the same for every substep.
 struct MethodStep {

@@ -10,6 +10,7 @@
 #include "cloth/loads.h"
 #include "control/balance.h"
 #include "world/collider_pose.h"
+#include "world/gas.h"
 #include "world/weather.h"
 
 namespace drape {
@@ -119,6 +120,21 @@ double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
            std::sqrt(cloth.areal_density / cloth.stiffness.stretch.least()) / softest;
 }
 
+/// Returns the speed, m/s, that gas may give to the cloths which close it in: by the work that it does as it grows from
+/// a volume to e^20 times that at constant temperature.
+double blown_speed(const SceneDescription& scene, const Cloth& cloth) {
+    constexpr double growth = 20;
+    for (const Gas& gas : scene.gas) {
+        if (std::ranges::find(gas.cloths, cloth.name) == gas.cloths.end()) continue;
+        double mass = 0;
+        for (const Cloth& each : scene.cloths)
+            if (std::ranges::find(gas.cloths, each.name) != gas.cloths.end())
+                mass += each.areal_density * each.size[0] * each.size[1];
+        return std::sqrt(2 * growth * gas.ambient * most_gas(gas) / mass);
+    }
+    return 0;
+}
+
 Causes::Start start_of(const SceneDescription& scene, const Cloth& described, const ClothModel& cloth,
                        const ClothStatistics& statistics) {
     Causes::Start start{.mean = statistics.center_of_mass, .diagonal = cloth.reach()};
@@ -142,6 +158,7 @@ Causes::Start start_of(const SceneDescription& scene, const Cloth& described, co
     const double mass = cloth.inner_mass * (cloth.grid.columns() - 1) * (cloth.grid.rows() - 1);
     start.released = start.strain * start.wave + std::sqrt(2 * cloth.start_bending() / mass);
     start.recoil = recoil_of(scene, described);
+    start.blown = blown_speed(scene, described);
     return start;
 }
 
@@ -239,8 +256,8 @@ double Causes::own_speed(std::uint32_t frame, std::size_t index) const {
     for (std::size_t k = 0; k < start.load_masses.size(); ++k) pull += strongest(cloth.loads[k]) / start.load_masses[k];
     const double fall = start.held ? std::min(pull * time, 2 * std::sqrt(pull * start.diagonal)) : pull * time;
     const double strained = std::min(drive(frame, index).travel / std::min(cloth.size[0], cloth.size[1]), 1.0);
-    return model_.cloths[index].start_speed + fall + fastest_wind(model_.scene.wind) + start.released + pushed() +
-           drive(frame, index).speed + strained * start.wave + start.recoil;
+    return model_.cloths[index].start_speed + fall + start.blown + fastest_wind(model_.scene.wind) + start.released +
+           pushed() + drive(frame, index).speed + strained * start.wave + start.recoil;
 }
 
 Causes::Reach Causes::reach(std::uint32_t frame, std::size_t index) const {

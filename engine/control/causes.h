@@ -30,6 +30,7 @@ class Causes {
         double square_speed = 0;  ///< m^2/s^2, the mean by mass
         double wave = 0;          ///< m/s at which strain spreads and is released
         double released = 0;      ///< m/s that a cloth gains when its initial strain and bending are released
+        double blown = 0;         ///< m/s that gas may give to it
         double recoil = 0;        ///< m/s that a cloth gains when it stiffens after gravity stretched it at its softest
         std::vector<double> load_masses{};  ///< local_load_masses (cloth/loads.h)
         std::optional<Vec3> upright{};      ///< stands_upright (balance.h)

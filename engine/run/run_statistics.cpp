@@ -54,6 +54,10 @@ void add_cloth(FrameValues& values, const std::string& cloth, const ClothStatist
         values[cloth + "/seam_load_n_per_m"] = statistics.seams->load;
         values[cloth + "/seam_ripped"] = statistics.seams->ripped;
     }
+    if (statistics.gas) {
+        values[cloth + "/gas_pressure_pa"] = statistics.gas->pressure;
+        values[cloth + "/gas_volume_m3"] = statistics.gas->volume;
+    }
     values[cloth + "/angular_error_kg_m2_s"] = length(statistics.angular_error);
     values[cloth + "/distance_max_m"] = statistics.largest_distance;
     values[cloth + "/speed_max_m_s"] = statistics.largest_speed;

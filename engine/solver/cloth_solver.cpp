@@ -176,6 +176,8 @@ void ClothSolver::declare_inputs(graph::Graph& graph) {
                           .texels = true});
     if (model_.sewn_count > 0)
         inputs_.sewn_places = graph.buffer<glsl::SewnPlace>("sewn places", model_.sewn_count, Lifetime::persistent);
+    if (model_.gas_sum_count > 0)
+        inputs_.gas_sums = graph.buffer<glsl::GasSum>("gas sums", model_.gas_sum_count, Lifetime::persistent);
     if (!model_.closings.empty())
         inputs_.openings = graph.buffer<glsl::SeamOpening>("openings", model_.most_substeps() * model_.closings.size(),
                                                            Lifetime::host_input);

@@ -92,6 +92,7 @@ struct SceneInputs {
     graph::Handle form_nodes, form_corners, form_guesses, form_sides;
     graph::Handle body_actions;  ///< a BodyAction per member and body; invalid where no action pushes bodies
     graph::Handle sewn_places;   ///< of all cloths: a SewnPlace each; passes write it
+    graph::Handle gas_sums;      ///< of all cloths that close gas in: a GasSum per workgroup; passes write it
     graph::Handle openings;      ///< a SeamOpening per substep and time of closing; invalid where no seam closes
     graph::Handle attempt;       ///< closed loops: a SubstepChange per cloth
 };

@@ -38,6 +38,18 @@ std::vector<std::span<const std::byte>> seam_loads(const ClothLayout& layout, co
     return all;
 }
 
+std::string gas_readback_name(const std::string& state) { return state + "/gas on the host"; }
+
+/// Returns the state of the gas that each cloth closes in; nothing where it closes none in.
+std::vector<std::span<const std::byte>> gas_states(const ClothLayout& layout, const graph::ResourcePool& pool,
+                                                   std::uint32_t slot) {
+    std::vector<std::span<const std::byte>> all;
+    for (const ClothModel& cloth : layout.model.cloths)
+        all.push_back(cloth.gas ? pool.buffer(gas_readback_name(cloth.name), slot).mapped()
+                                : std::span<const std::byte>());
+    return all;
+}
+
 std::string iteration_readback_name(const std::string& state) { return state + "/iterations on the host"; }
 
 /// Adds the tension that steps of a method do not keep.
@@ -118,6 +130,9 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
     if (rips(state.model->sewn))
         add_image_readback(graph, state.pass_name("seam readback", "statistics"), state[Field::seam_loads],
                            seam_readback_name(state.name));
+    if (state.model->gas)
+        add_image_readback(graph, state.pass_name("gas readback", "statistics"), state[Field::gas],
+                           gas_readback_name(state.name));
     if (model.adaptive())
         add_buffer_readback(graph, state.pass_name("iteration readback", "statistics"), state[Field::iterations],
                             glsl::iteration_size_count * sizeof(glsl::uvec4), sizeof(glsl::uvec4),
@@ -128,10 +143,11 @@ std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const g
                                               std::uint32_t slot) {
     const std::vector<std::span<const std::byte>> records = layout.parts(pool, slot, statistics_readback_name),
                                                   impulses = impulse_sums(layout, pool, slot),
-                                                  seams = seam_loads(layout, pool, slot);
+                                                  seams = seam_loads(layout, pool, slot),
+                                                  gases = gas_states(layout, pool, slot);
     std::vector<StatisticsBytes> all;
     for (std::size_t cloth = 0; cloth < records.size(); ++cloth)
-        all.push_back({records[cloth], impulses[cloth], seams[cloth]});
+        all.push_back({records[cloth], impulses[cloth], seams[cloth], gases[cloth]});
     return all;
 }
 
@@ -144,6 +160,7 @@ std::vector<ClothStatistics> statistics_from(std::span<const StatisticsBytes> by
         std::memcpy(&record, own.record.data(), sizeof record);
         all.push_back(cloth_statistics(run, cloth, record, frame, own.impulses));
         if (frame > 0 && !own.seams.empty()) all.back().seams = seam_statistics(cloth, own.seams);
+        if (!own.gas.empty()) all.back().gas = gas_statistics(own.gas);
     }
     std::vector<std::span<const std::byte>> impulses;
     for (const StatisticsBytes& own : bytes) impulses.push_back(own.impulses);

@@ -18,7 +18,7 @@ void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state
 /// Views what the device leaves of a cloth: its record, the sums of its impulses where the scene wants forces, and what
 /// its seams bore where some rip.
 struct StatisticsBytes {
-    std::span<const std::byte> record, impulses, seams;
+    std::span<const std::byte> record, impulses, seams, gas;
 };
 /// Returns what the slot's last finished frame has left of each cloth.
 std::vector<StatisticsBytes> statistics_bytes(const ClothLayout& layout, const graph::ResourcePool& pool,

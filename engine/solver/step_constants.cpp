@@ -60,7 +60,17 @@ bool seam_leads(Place p) {
     const bool steps = seam_stage(p) == glsl::seam_predicted && !p.model.method().iterates();
     return lies_between(p.cloth->model->sewn) && (steps || seam_stage(p) == glsl::seam_solved);
 }
-bool seam_has_vectors(Place p) { return seam_stage(p) == glsl::seam_forces || seam_stage(p) == glsl::seam_normals; }
+bool seam_has_vectors(Place p) {
+    return seam_stage(p) == glsl::seam_forces || seam_stage(p) == glsl::seam_normals ||
+           seam_stage(p) == glsl::seam_areas;
+}
+/// Returns the place that has the order of steps of all cloths that are sewn together, or -1.
+int joint_of(Place p) {
+    if (const auto* gas = std::get_if<glsl::GasPush>(&p.step.constants)) return gas->joint;
+    return p.step.push<glsl::PredictPush>().joint;
+}
+/// Returns whether positions lack the last substep's displacement. At a frame's end they have it.
+bool lags(Place p) { return p.step.substep > 0 && p.step.substep < p.model.scene.solver.substeps; }
 bool has_seam_loads(Place p) { return has(p, Field::seam_loads); }
 /// Returns whether what moves particles pulls at seams: springs, air, or by methods that do not iterate whole steps.
 bool seam_pulls(Place p) {
@@ -105,6 +115,7 @@ constexpr ConstantRow constant_rows[] = {
     {"control_comes_home", [](Place p) { return second_order(p) && p.step.substep % 2 == 1 ? 1u : 0u; }},
     {"crossed", [](Place p) { return crossed(p) ? 1u : 0u; }},
     {"directions", direction_bits},
+    {"encloses", [](Place p) { return has(p, Field::gas) ? 1u : 0u; }},
     {"ends_frame", [](Place p) { return p.step.last ? 1u : 0u; }},
     {"entries_each", [](Place p) { return p.device.entries_each(); }},
     {"first_pin_row", [](Place p) { return first_pin_row(p.model.scene); }},
@@ -119,6 +130,7 @@ constexpr ConstantRow constant_rows[] = {
     {"keeps_before", [](Place p) { return keeps_before(p) ? 1u : 0u; }},
     {"keeps_contact", [](Place p) { return has(p, Field::contact_impulses) ? 1u : 0u; }},
     {"keeps_excess", [](Place p) { return has(p, Field::end_excess) ? 1u : 0u; }},
+    {"lags", [](Place p) { return lags(p) ? 1u : 0u; }},
     {"load_depth", [](Place p) { return p.cloth->model->load_depth; }},
     {"local_size_x", group_width},
     {"local_size_y", [](Place p) { return static_cast<std::uint32_t>(group_of_lines(p).y); }},
@@ -132,7 +144,7 @@ constexpr ConstantRow constant_rows[] = {
     {"pointed", [](Place p) { return !p.model.bodies.front().hull_points.empty() ? 1u : 0u; }},
     {"second_order", [](Place p) { return second_order(p) ? 1u : 0u; }},
     {"sewn", [](Place p) { return p.model.self_contact->is_sewn() ? 1u : 0u; }},
-    {"sewn_to_others", [](Place p) { return p.step.push<glsl::PredictPush>().joint >= 0 ? 1u : 0u; }},
+    {"sewn_to_others", [](Place p) { return joint_of(p) >= 0 ? 1u : 0u; }},
     {"sews_between", [](Place p) { return lies_between(p.cloth->model->sewn) ? 1u : 0u; }},
     {"sews_closing", [](Place p) { return p.model.closings.empty() ? 0u : 1u; }},
     {"sews_ends", [](Place p) { return seam_stage(p) == glsl::seam_ripped ? 1u : 0u; }},

@@ -70,8 +70,8 @@ Field control_of(const Step& step, bool written) {
     if (ends_frame && written) return Field::line_control;
     const bool joins_orders =
         step.kind == StepKind::seam_give && step.push<glsl::SeamPush>().stage == glsl::seam_orders;
-    const bool is_before =
-        ends_frame || step.kind == StepKind::release || joins_orders || (step.kind == StepKind::predict && !written);
+    const bool is_before = ends_frame || step.kind == StepKind::release || step.kind == StepKind::gas_pressure ||
+                           joins_orders || (step.kind == StepKind::predict && !written);
     return (step.substep + (is_before ? 0 : 1)) % 2 == 0 ? Field::line_control : Field::line_control_spare;
 }
 
@@ -101,11 +101,13 @@ void add_step_pass(graph::Graph& graph, Pipelines& pipelines, ClothState* cloth,
     const auto value = [&](std::string_view name) { return step_constant(place, name); };
     const vulkan::ComputePipeline& pipeline = pipelines.get(module, value, own.valid());
     const Turn turned = row.turn ? row.turn(place) : Turn::nothing;
-    PassResources resources{
-        cloth,
-        contact,
-        inputs,
-        {{"constants", &own}, {"sewn_places", &inputs.sewn_places}, {"openings", &inputs.openings}}};
+    PassResources resources{cloth,
+                            contact,
+                            inputs,
+                            {{"constants", &own},
+                             {"sewn_places", &inputs.sewn_places},
+                             {"openings", &inputs.openings},
+                             {"gas_sums", &inputs.gas_sums}}};
     if (bearer) {
         resources.own.emplace_back("bodies", &(*bearer)[Field::bodies]);
         resources.own.emplace_back("body_constants", &(*bearer)[Field::body_constants]);

@@ -38,8 +38,8 @@ std::string explicit_label(Place p) {
     return p.step.count > 1 ? fmt::format("{} explicit steps", p.step.count) : "explicit step";
 }
 std::string seam_words(Place p) {
-    constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces",
-                                     "normals",   "begun",    "met",    "orders",  "ripped"};
+    constexpr const char* words[] = {"predicted", "released", "solved", "touched", "forces", "normals",
+                                     "begun",     "met",      "orders", "ripped",  "areas"};
     return words[p.step.push<glsl::SeamPush>().stage];
 }
 std::string seam_give_label(Place p) { return "seam gives " + seam_words(p); }
@@ -141,6 +141,9 @@ std::vector<StepRow> first_rows() {
     return {
         {StepKind::stiffness, "stiffness", {{plain, "stiffness.comp", over_particles}}, stiffness_push},
         {StepKind::release, "pin release", {{plain, "pin_release.comp", over_pins}}, release_push},
+        {StepKind::gas_area, "gas areas", {{plain, "gas_area.comp", over_particles}}},
+        {StepKind::gas_sum, "gas sums", {{plain, "gas_sum.comp", over_gas_sums}}},
+        {StepKind::gas_pressure, "gas pressure", {{plain, "gas_pressure.comp", one_workgroup}}},
         {StepKind::wind, "wind", {{plain, "wind.comp", over_wide_columns}}, wind_push},
         {StepKind::predict, "predict", {{plain, "predict.comp", over_strips}}, nullptr, turns_if_asked},
         {StepKind::force, "force", {{plain, "force.comp", over_strips}}, nullptr, turns_if_asked},

@@ -160,6 +160,10 @@ DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pip
         1);
 }
 
+DispatchSize over_gas_sums(const StepPlace& place, const ComputePipeline&) {
+    return of_cloths(place, gas_sum_count(*place.cloth->model) * glsl::workgroup_width, 1);
+}
+
 DispatchSize over_torque_sums(const StepPlace& place, const ComputePipeline&) {
     return of_cloths(place, torque_count(place.cloth->model->grid) * glsl::workgroup_width, 1);
 }

@@ -29,6 +29,7 @@ DispatchSize over_lines(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_line_particles(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_line_parts(const StepPlace& place, const ComputePipeline& pipeline);
 DispatchSize over_nested_pins(const StepPlace& place, const ComputePipeline& pipeline);
+DispatchSize over_gas_sums(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_torque_sums(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_explicit_stream(const StepPlace& place, const ComputePipeline&);
 DispatchSize over_spring_stream(const StepPlace& place, const ComputePipeline&);

@@ -96,7 +96,7 @@ struct WindPush {
     int first;               // index of the first substep's wind, of the cloth's own scene
     float inner_mass;        // kg, of an inner particle
     int first_load;          // of the cloth, among those of its scene
-    int unused;
+    float gas_sign;          // of GasAreaPush; 0: it closes no gas in
 };
 
 /// Bits of what the air acts on at a particle: its quarters of the cells up left, up right, down left and down right,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "support/gas_scenes.h"
 #include "support/self_contact_scenes.h"
 #include "support/sewn_scenes.h"
 #include "twin_comparison.h"
@@ -174,6 +175,13 @@ SceneDescription with_maps(SceneDescription scene) {
     return scene;
 }
 
+/// A cushion that gas blows up.
+SceneDescription blown_cushion(SolverMethod method) {
+    SceneDescription scene = gas_cushion(method, 13, 4, 0.02);
+    blow_up(scene, 0.005, 0.1);
+    return scene;
+}
+
 /// Two that started through each other, and a third that touches one of them.
 SceneDescription parting(SolverMethod method, std::uint32_t substeps) {
     SceneDescription scene = crossed(method, substeps);
@@ -229,6 +237,8 @@ const std::vector<ConformanceScene>& conformance_scenes() {
         {"SewnClosing", with(unlike_panels(line, 0.06), line, 4), 5},
         {"SewnRips", with(opening_seam(line, 1), line, 4), 5},
         {"SewnContact", with(folding_panels(line, true), line, 6), 12},
+        {"GasLine", with(blown_cushion(line), line, 4), 5},
+        {"GasExplicit", with(blown_cushion(explicit_steps), explicit_steps, 12), 5},
         {"ForcesInFlight", telling_forces(flying(false)), 5},
         {"ForcesOfParting", telling_forces(parting(line, 5)), 0},
     };

@@ -11,12 +11,17 @@ namespace drape::test {
 // chain of such operations adds up to where nothing cancels, roughly, and one unit for the last rounding. In self_limit
 // a corner that moves along its plane makes all of its motion or none: where the other side takes all the room it is
 // held by a motion towards the plane of 1e-10 m, which is what rounding leaves.
-const std::vector<StepBound>& step_bounds() {
+namespace {
+
+std::vector<StepBound> bounds_of_cloths() {
     using enum StepKind;
     using enum Chain;
-    static const std::vector<StepBound> bounds = {
+    return {
         {stiffness, 0, fixed, 0, "a product"},
         {release, 64, fixed, 0, "a root and a division for each of eight springs, added up"},
+        {gas_area, 8, fixed, 0, "sums of products, of edges that cancel; no division"},
+        {gas_sum, -1, fixed, 0, "it writes no field: what it sums is judged at gas_pressure"},
+        {gas_pressure, 64, fixed, 0, "a root and divisions of a sum over all of the cloths"},
         {wind, 20, fixed, 0, "of each quarter two roots and two divisions, its normal used twice; quarters added"},
         {predict, 4, fixed, 0, "the drag's share is one division from 1"},
         {force, 4, fixed, 0, "as predict"},
@@ -49,6 +54,13 @@ const std::vector<StepBound>& step_bounds() {
         {body_strike, -1, fixed, 0, "as body_move"},
         {momentum, 0, fixed, 0, "products, and sums of integers; no scene has what rounds otherwise"},
         {worst_impulses, 0, fixed, 0, "integers, compared by the squares of what they round to"},
+    };
+}
+
+std::vector<StepBound> bounds_of_contact() {
+    using enum StepKind;
+    using enum Chain;
+    return {
         {self_gather, 8, fixed, 0, "copies, and two divisions of the motion that others are measured against"},
         {self_boxes, 8, fixed, 0, "the motion of self_gather"},
         {self_tree, -1, fixed, 0, "the twin tries all pairs: the list that comes of it is judged at self_pairs"},
@@ -69,6 +81,16 @@ const std::vector<StepBound>& step_bounds() {
         {self_turn, 64, fixed, 0, "as rotate"},
         {self_sew, 0, fixed, 0, "copies of what the twin's other steps left"},
     };
+}
+
+}  // namespace
+
+const std::vector<StepBound>& step_bounds() {
+    static const std::vector<StepBound> bounds = [] {
+        std::vector<StepBound> all = bounds_of_cloths();
+        for (const StepBound& each : bounds_of_contact()) all.push_back(each);
+        return all;
+    }();
     return bounds;
 }
 

@@ -9,6 +9,7 @@
 
 #include "ensemble_members.h"
 #include "library_device.h"
+#include "support/gas_scenes.h"
 
 namespace drape {
 namespace {
@@ -156,6 +157,18 @@ TEST_F(EnsembleTest, MembersThatShareNoDispatchesAreAsAlone) {
     for (const std::vector<std::string>& overrides : kinds) {
         SCOPED_TRACE(overrides.front());
         expect_each_as_alone(drawn(scene_of(overrides), 3, seed), 6, false);
+    }
+}
+
+TEST_F(EnsembleTest, MembersWhoseClothsCloseGasInAreAsAlone) {
+    for (const SolverMethod method : {SolverMethod::line, SolverMethod::explicit_steps}) {
+        std::vector<SceneDescription> members(3, test::gas_cushion(method, 7, 8, 0.02));
+        for (SceneDescription& member : members) member.time.frame_count = 8;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            test::blow_up(members[k], 0.004 + 0.001 * static_cast<double>(k), 0.1);
+            members[k].gas[0].ambient *= 1 - 0.2 * static_cast<double>(k);
+        }
+        expect_each_as_alone(members, 6, false);
     }
 }
 

@@ -267,6 +267,19 @@ constexpr const char* ripping_scene = R"({"time": {"frames": 21}, "image": {"siz
 const std::string ripping_by_auto = with_method(ripping_scene, "\"auto\"");
 const std::string ripping_by_lines = with_method(ripping_scene, "\"line\", \"substeps\": 8");
 
+/// Gas blows two squares up that start flat.
+constexpr const char* blown_scene = R"({"time": {"frames": 21}, "cloths": [
+    {"name": "a", "grid": [7, 7], "size": [0.4, 0.4], "placement": {"v": [0, 0.2, 1]}, "stiffness": {"stretch": 500}},
+    {"name": "b", "grid": [7, 7], "size": [0.4, 0.4], "placement": {"v": [0, 0.2, 1]}, "stiffness": {"stretch": 500}}],
+  "seams": [{"a": {"cloth": "a", "edge": "left"}, "b": {"cloth": "b", "edge": "left"}},
+            {"a": {"cloth": "a", "edge": "right"}, "b": {"cloth": "b", "edge": "right"}},
+            {"a": {"cloth": "a", "edge": "top"}, "b": {"cloth": "b", "edge": "top"}},
+            {"a": {"cloth": "a", "edge": "bottom"}, "b": {"cloth": "b", "edge": "bottom"}}],
+  "gas": [{"cloths": ["a", "b"], "outside": "back", "volume_keys": [{"t": 0, "volume": 0}, {"t": 0.3, "volume": 0.01}]}],
+  "solver": {"method": %s}})";
+const std::string blown_by_auto = with_method(blown_scene, "\"auto\"");
+const std::string blown_by_lines = with_method(blown_scene, "\"line\", \"substeps\": 8, \"estimate_error\": true");
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SimulationStateTest,
     testing::Values(
@@ -279,7 +292,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"PassedByAuto", passed_by_auto.c_str()}, Case{"DeformingByAuto", deforming_by_auto.c_str(), true},
         Case{"DeformingByLines", deforming_by_lines.c_str(), true},
         Case{"RestingAsItStarts", resting_as_it_starts.c_str()}, Case{"RippingByAuto", ripping_by_auto.c_str(), true},
-        Case{"RippingByLines", ripping_by_lines.c_str(), true}),
+        Case{"RippingByLines", ripping_by_lines.c_str(), true}, Case{"BlownByAuto", blown_by_auto.c_str()},
+        Case{"BlownByLines", blown_by_lines.c_str()}),
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST_F(SimulationStateGuard, WhatIsNotOfTheSceneIsRefused) {

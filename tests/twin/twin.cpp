@@ -84,6 +84,8 @@ Twin::Twin(const SimulationModel& model, const Kernels& kernels) : model_(&model
     for (std::size_t cloth = 0; cloth < model.cloths.size(); ++cloth) cloths_.emplace_back(model, cloth);
     const auto sewn = std::make_shared<std::vector<glsl::SewnPlace>>(model.sewn_count);
     for (TwinCloth& cloth : cloths_) cloth.sewn = sewn;
+    const auto sums = std::make_shared<std::vector<glsl::GasSum>>(model.gas_sum_count);
+    for (TwinCloth& cloth : cloths_) cloth.gas_sums = sums;
     if (model.self_contact) contact_.emplace(*model.self_contact);
 }
 
@@ -173,13 +175,19 @@ void run_wind(const TwinPlace& where) {
             if (impulses.are_wanted())
                 impulses.add(impulse_air, 0, sum.force,
                              units_per_newton(impulses.units(), push.inverse_step, push.inner_mass));
-            if (model.load_depth > 0) {
+            if (model.load_depth > 0 || model.gas) {
                 vec3 loaded = empty_sum();
                 const vec3 area = area_vector(all_edges, air);
                 for (std::size_t k = particle * model.load_depth; k < (particle + 1) * model.load_depth; ++k) {
                     const vec4 share = model.loads[k];
                     if (share.x < 0) break;
                     loaded = add_load(loaded, inputs.wind[first_load + static_cast<std::size_t>(share.x)], share, area);
+                }
+                if (model.gas) {
+                    const GasEdges around{all_edges.left,        all_edges.right,       all_edges.up,
+                                          all_edges.down,        edge_to(x - 1, y - 1), edge_to(x + 1, y - 1),
+                                          edge_to(x - 1, y + 1), edge_to(x + 1, y + 1)};
+                    loaded = gas_force(loaded, gas_area(around, air), state[Field::gas][0].x, push.gas_sign);
                 }
                 if (impulses.are_wanted())
                     impulses.add(impulse_loads, 0, loaded,
@@ -303,9 +311,10 @@ using StepFunction = void (*)(const TwinPlace&);
 StepFunction function_of(StepKind kind) {
     static const std::map<StepKind, StepFunction> functions = [] {
         std::map<StepKind, StepFunction> all;
-        for (const auto& rows : {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(),
-                                 twin_nested_rows(), twin_bend_rows(), twin_contact_rows(), twin_check_rows(),
-                                 twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows(), twin_seam_rows()})
+        for (const auto& rows :
+             {common_rows(), twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(),
+              twin_bend_rows(), twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows(),
+              twin_impulse_rows(), twin_seam_rows(), twin_gas_rows()})
             for (const TwinRow& row : rows) all.emplace(row.kind, row.run);
         return all;
     }();

@@ -56,10 +56,11 @@ struct TwinCloth {
     std::array<std::vector<float>, field_count> scalars;
     std::array<std::vector<glsl::uint>, field_count> integer_fields;
     CutTopology topology;
-    std::shared_ptr<std::vector<glsl::SewnPlace>> sewn;  ///< of all cloths
-    glsl::ResidualRecord residual{};                     ///< result of the last residual step
-    bool iterates = true;                                ///< last decision: whether conditional steps run
-    std::uint32_t iteration_count = 0;                   ///< iterations of the frame, when adaptive
+    std::shared_ptr<std::vector<glsl::SewnPlace>> sewn;   ///< of all cloths
+    std::shared_ptr<std::vector<glsl::GasSum>> gas_sums;  ///< of all cloths that close gas in
+    glsl::ResidualRecord residual{};                      ///< result of the last residual step
+    bool iterates = true;                                 ///< last decision: whether conditional steps run
+    std::uint32_t iteration_count = 0;                    ///< iterations of the frame, when adaptive
 };
 
 /// Returns the squared distance, m^2, of each body that lies with a cloth from where another run has it.
@@ -139,7 +140,7 @@ struct TwinRow {
 };
 std::vector<TwinRow> twin_release_rows(), twin_explicit_rows(), twin_line_rows(), twin_nested_rows(), twin_bend_rows(),
     twin_contact_rows(), twin_check_rows(), twin_sheet_rows(), twin_rotation_rows(), twin_impulse_rows(),
-    twin_seam_rows();
+    twin_seam_rows(), twin_gas_rows();
 
 class Twin {
   public:

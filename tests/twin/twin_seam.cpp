@@ -46,7 +46,7 @@ int stage_of(const TwinPlace& where) { return where.step.push<SeamPush>().stage;
 bool moves_all(int stage) {
     return stage == seam_predicted || stage == seam_released || stage == seam_begun || stage == seam_met;
 }
-bool has_vectors(int stage) { return stage == seam_forces || stage == seam_normals; }
+bool has_vectors(int stage) { return stage == seam_forces || stage == seam_normals || stage == seam_areas; }
 
 std::vector<vec4>& vectors_of(const TwinPlace& where) {
     return where.state[stage_of(where) == seam_normals ? Field::normal : Field::wind_force];
@@ -90,14 +90,14 @@ vec3 pull_of(const TwinPlace& where, vec3 moved, float inverse_mass) {
 vec3 lead_of(const TwinPlace& where, std::size_t own) { return xyz(where.state[Field::sewn_leads][own]); }
 
 void give_vectors(const TwinPlace& where) {
-    const bool normals = stage_of(where) == seam_normals;
+    const bool normals = stage_of(where) == seam_normals, forces = stage_of(where) == seam_forces;
     for_sewn(where, [&](const Given& given) {
         vec4 own = vectors_of(where)[given.particle()];
-        if (where.scene.weighs && !normals)
+        if (where.scene.weighs && forces)
             own = without_carried(own,
                                   xyz(where.inputs.wind[static_cast<std::size_t>(where.step.push<SeamPush>().weather)]),
                                   given.sewn().carried.x, where.state[Field::position][given.particle()].w);
-        if (!normals) add_load(where, given, xyz(own));
+        if (forces) add_load(where, given, xyz(own));
         if (given.is_between()) own = own_force(own, given.sewn().weights.w);
         vec4& sum = given.place.vector;
         sum = given.sewn().weights.z != 0 ? own
@@ -210,6 +210,10 @@ void take_vectors(const TwinPlace& where) {
         vec4 sum = place_at(where, sewn.at.z).vector;
         const vec4 other = is_between ? place_at(where, sewn.between.x).vector : vec4{};
         vec4& own = vectors_of(where)[each.particle];
+        if (stage_of(where) == seam_areas) {
+            own = sum;
+            continue;
+        }
         if (stage_of(where) == seam_forces) {
             const vec4 force = own_force(sum, sewn.parts.y);
             own = is_between ? sewn_force(force, own_force(other, sewn.parts.z)) : force;

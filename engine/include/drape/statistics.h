@@ -33,6 +33,12 @@ struct SeamStatistics {
     std::uint32_t ripped = 0;  ///< particles of the cloth at places that have come apart
 };
 
+/// Tells of the gas that a cloth closes in, the same by all cloths that do.
+struct GasStatistics {
+    double pressure = 0;  ///< Pa, above the ambient one: in the frame's last substep, at the start in frame 0
+    double volume = 0;    ///< m^3: what is closed in at the frame's end
+};
+
 /// Values are in SI units, of all particles that are finite, held ones included. Far from anything sensible (1e19 m) a
 /// number may overflow to infinity before the positions do.
 struct ClothStatistics {
@@ -54,6 +60,7 @@ struct ClothStatistics {
     /// the frame's time is that change.
     std::vector<ForceOnCloth> forces;
     std::optional<SeamStatistics> seams{};   ///< from frame 1 on, of a cloth with a seam that rips
+    std::optional<GasStatistics> gas{};      ///< of a cloth that closes gas in
     double mass = 0;                         ///< kg
     std::array<double, 3> center_of_mass{};  ///< m
     /// m: largest depth of a particle in the zone that contacts keep free (with the thickness); nothing: no colliders.
