@@ -51,7 +51,10 @@ void no_self_collision(SceneDescription& scene) {
 void no_loads(SceneDescription& scene) {
     for (Cloth& cloth : scene.cloths) cloth.loads.clear();
 }
-void never_sewn(SceneDescription& scene) { scene.seams.clear(); }
+void never_sewn(SceneDescription& scene) {
+    scene.seams.clear();
+    scene.gas.clear();
+}
 void never_cut(SceneDescription& scene) {
     scene.cutters.clear();
     for (Cloth& cloth : scene.cloths) cloth.tear.reset();
