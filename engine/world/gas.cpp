@@ -86,15 +86,16 @@ std::optional<Way> way_between(const SeamPlace& a, const SeamPlace& b) {
 
 /// Returns where an edge of a rim is, as text.
 std::string place_on_rim(const Cloth& cloth, std::uint32_t a, std::uint32_t b) {
-    const auto [columns, rows] = cloth.grid;
+    const std::uint32_t columns = cloth.grid[0], last = columns * (cloth.grid[1] - 1);
     const auto both = [&](const auto& is) { return is(a) && is(b); };
     if (cloth.panel.empty()) {
         if (both([&](std::uint32_t k) { return k % columns == 0; })) return "edge left";
         if (both([&](std::uint32_t k) { return k % columns == columns - 1; })) return "edge right";
         if (both([&](std::uint32_t k) { return k < columns; })) return "edge top";
-        if (both([&, last = (rows - 1) * columns](std::uint32_t k) { return k >= last; })) return "edge bottom";
+        if (both([&](std::uint32_t k) { return k >= last; })) return "edge bottom";
     } else {
-        return fmt::format("outline at [{:.6g}, {:.6g}]", cloth.panel[a][0], cloth.panel[a][1]);
+        return fmt::format("outline at [{:.6g}, {:.6g}] m from the corner of its box", cloth.panel[a][0],
+                           cloth.panel[a][1]);
     }
     return fmt::format("rim at particle [{}, {}]", a % columns, a / columns);
 }
@@ -113,7 +114,7 @@ class Closure {
         for (bool changed = true; changed;) {
             changed = false;
             for (const auto& [piece, sides] : pieces_)
-                if (const auto met = meet(sides, changed)) return met;
+                if (auto met = meet(sides, changed)) return met;
         }
         for (std::size_t k = 0; k < signs_.size(); ++k)
             if (signs_[k] == 0)
