@@ -200,6 +200,7 @@ float SimulationModel::iteration_limit() const {
 std::vector<SkippedWork> SimulationModel::skipped() const {
     std::vector<SkippedWork> all;
     if (!windy) all.push_back({"wind", "no wind in the scene"});
+    if (scene.gas.empty()) all.push_back({"gas", "no gas in the scene"});
     if (!bodies.front().bodies.empty() && !bodies.front().meet)
         all.push_back({"contact of bodies", "one body, and no collider but planes, whose contact its motion has"});
     if (scene.colliders.empty()) {
