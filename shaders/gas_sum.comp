@@ -43,8 +43,8 @@ GasSum with_particle(GasSum sum, int place) {
 }
 
 void main() {
-    ivec2 corner = ivec2(0, 0);
-    origin = place_now(LOAD(position, corner).xyz, LOAD(displacement, corner).xyz);
+    ivec2 from = texel_of(push.origin, push.grid.x);
+    origin = place_now(LOAD(position, from).xyz, LOAD(displacement, from).xyz);
     GasSum sum = empty_gas_sum();
     int group = int(gl_WorkGroupID.x), count = push.grid.x * push.grid.y;
     int place = group * gas_particles + int(gl_LocalInvocationIndex);

@@ -30,32 +30,6 @@ std::optional<KeptTurn> turn_of(const SceneDescription& scene, const ClothGeomet
     return known ? kept_turn(scene, cloth) : std::nullopt;
 }
 
-/// Lets loads and gas act from the start on, as gravity does: each particle's displacement before it has their half
-/// kick.
-void kick(const SceneDescription& scene, std::size_t index, const MethodSettings& settings, ClothModel& model) {
-    const Cloth& cloth = scene.cloths[index];
-    // Such damping leaves nothing of a kick (method_line.cpp).
-    if (model.scheme.second_order && model.damping * settings.substep_length > 1) return;
-    std::vector<Vec3> at;
-    for (const glsl::vec4& place : model.position) at.push_back({double{place.x}, double{place.y}, double{place.z}});
-    const std::vector<Vec3> blown = start_gas_forces(scene, index, at);
-    if (cloth.loads.empty() && blown.empty()) return;
-    std::vector<Vec3> force = load_forces(cloth, model.grid, at, 0);
-    for (std::size_t k = 0; k < blown.size(); ++k) force[k] = plus(force[k], blown[k]);
-    model.scheme.starts.resize(force.size(), model.scheme.start);
-    const auto kick_of = [&](std::size_t particle) {
-        MethodSettings pulled = settings;
-        pulled.gravity = times(double{model.free_weight[particle]} / model.inner_mass, force[particle]);
-        return verlet_start(model, pulled, {});
-    };
-    for (std::size_t k = 0; k < force.size(); ++k) {
-        const glsl::vec4 more = kick_of(k);
-        glsl::vec4& start = model.scheme.starts[k];
-        start = {start.x + more.x, start.y + more.y, start.z + more.z, start.w};
-    }
-    for (Sewn& each : model.sewn) each.kick = kick_of(each.particle);
-}
-
 MethodSettings settings_of(const SceneDescription& scene, double substep_length, const std::optional<KeptTurn>& turn,
                            const ModelOptions& options) {
     // Contact in an earlier iteration gives the cloth impulses that are no torque of its own forces.
@@ -79,8 +53,31 @@ ClothModel::ClothModel(const SceneDescription& scene, std::size_t cloth_index, c
       substep_length(1.0 / (scene.time.fps * scene.solver.substeps)),
       turn(turn_of(scene, *this, options)),
       scheme(row_of(scene.solver.method).scheme(*this, settings_of(scene, substep_length, turn, options))) {
-    kick(scene, cloth_index, settings_of(scene, substep_length, turn, options), *this);
+    // Loads act from the start on, as gravity does.
+    if (const Cloth& cloth = scene.cloths[cloth_index]; !cloth.loads.empty())
+        kick(load_forces(cloth, grid, start_places(), 0));
     set_constants(scene, scene.cloths[cloth_index], options.air || scene.wind.blows());
+}
+
+std::vector<Vec3> ClothModel::start_places() const {
+    std::vector<Vec3> at;
+    at.reserve(position.size());
+    for (const glsl::vec4& place : position) at.push_back({double{place.x}, double{place.y}, double{place.z}});
+    return at;
+}
+
+void ClothModel::kick(std::span<const Vec3> force) {
+    // Such damping leaves nothing of a kick (method_line.cpp).
+    if (scheme.second_order && damping * substep_length > 1) return;
+    scheme.starts.resize(force.size(), scheme.start);
+    const auto kicked = [&](const glsl::vec4& start, std::size_t particle) {
+        MethodSettings pulled{.substep_length = substep_length};
+        pulled.gravity = times(double{free_weight[particle]} / inner_mass, force[particle]);
+        const glsl::vec4 more = verlet_start(*this, pulled, {});
+        return glsl::vec4{start.x + more.x, start.y + more.y, start.z + more.z, start.w};
+    };
+    for (std::size_t k = 0; k < force.size(); ++k) scheme.starts[k] = kicked(scheme.starts[k], k);
+    for (Sewn& each : sewn) each.kick = kicked(each.kick, each.particle);
 }
 
 std::vector<glsl::vec4> ClothModel::start_displacement() const {

@@ -56,6 +56,10 @@ struct ClothModel : ClothGeometry {
     /// Returns `collision` with the reach of edges in the place of the thickness.
     glsl::CollisionPush collider_edges() const;
 
+    /// Returns where its particles start, m, row by row.
+    std::vector<Vec3> start_places() const;
+    /// Lets a force on each particle, N, act from the start on: displacements before it have their half kick.
+    void kick(std::span<const Vec3> force);
     /// Returns the displacement of every particle at the start, 0 where pinned, row by row.
     std::vector<glsl::vec4> start_displacement() const;
     /// Returns, for every particle, h times the velocity minus the start displacement.

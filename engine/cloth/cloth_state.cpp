@@ -157,7 +157,8 @@ std::vector<FieldRow> motion_rows() {
              return bytes_of_list(std::vector{c.cloth.gas->start.now, c.cloth.gas->start.kept});
          }},
         {Field::gas_shares, "gas shares", buffer, layout_of<glsl::vec2>(), constant, encloses, all_particles,
-         [](Context c) { return bytes_of_list(c.cloth.gas->shares); }},
+         // Images of what cuts change are compared whether a cloth has them or not (cut_images).
+         [](Context c) { return c.cloth.gas ? bytes_of_list(c.cloth.gas->shares) : std::vector<std::byte>(); }},
     };
 }
 

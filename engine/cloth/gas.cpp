@@ -50,6 +50,34 @@ void share_places(const SceneDescription& scene, const std::map<std::size_t, dou
             if (counted.contains(member.cloth)) cloths[member.cloth].gas->shares[member.particle] = {0, 0};
 }
 
+/// Returns the state of a gas at the start, and gives its cloths their half kick. What a stiff gas gives is less by
+/// what the cloths yield meanwhile: its pressure in the kick is that of the law with half a substep's growth.
+glsl::GasState begin(const SceneDescription& scene, const Gas& gas, std::span<const GasWall> walls,
+                     std::vector<ClothModel>& cloths) {
+    double volume = 0, yielding = 0, area = 0;
+    std::vector<std::vector<Vec3>> areas;
+    for (const GasWall& wall : walls) {
+        const ClothModel& cloth = cloths[wall.cloth];
+        const std::vector<Vec3> at = cloth.start_places();
+        volume += wall.sign * volume_behind(scene.cloths[wall.cloth], at);
+        areas.push_back(areas_borne(scene.cloths[wall.cloth], at));
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            Vec3& own = areas.back()[i];
+            own = times(wall.sign, own);
+            area += length(own);
+            const double h = cloth.substep_length, mass = mass_of(cloth, i);
+            if (cloth.position[i].w > 0) yielding += h * h / 2 * dot(own, own) / mass;
+        }
+    }
+    const double kick = gas_pressure(gas, 0, volume, yielding);
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+        for (Vec3& own : areas[k]) own = times(kick, own);
+        cloths[walls[k].cloth].kick(areas[k]);
+    }
+    const double told = closes_nothing_in(volume, area) ? 0 : gas_pressure(gas, 0, volume);
+    return {{static_cast<float>(told), static_cast<float>(volume), 0, 0}, {}};
+}
+
 }  // namespace
 
 std::uint32_t gas_sum_count(const ClothModel& cloth) {
@@ -63,9 +91,7 @@ std::size_t add_gas(const SceneDescription& scene, std::vector<ClothModel>& clot
     for (std::size_t number = 0; number < scene.gas.size(); ++number) {
         const Gas& gas = scene.gas[number];
         const std::vector<GasWall> walls = gas_walls(scene, gas);
-        const double volume = start_volume(scene, walls);
-        const glsl::GasState start{{static_cast<float>(gas_pressure(gas, 0, volume)), static_cast<float>(volume), 0, 0},
-                                   {}};
+        const glsl::GasState start = begin(scene, gas, walls, cloths);
         const int first = next;
         for (const GasWall& wall : walls) {
             ClothModel& cloth = cloths[wall.cloth];
@@ -86,24 +112,15 @@ std::size_t add_gas(const SceneDescription& scene, std::vector<ClothModel>& clot
     return static_cast<std::size_t>(next);
 }
 
-std::vector<Vec3> start_gas_forces(const SceneDescription& scene, std::size_t cloth, const std::vector<Vec3>& at) {
-    for (const Gas& gas : scene.gas) {
-        if (std::ranges::find(gas.cloths, scene.cloths[cloth].name) == gas.cloths.end()) continue;
-        const std::vector<GasWall> walls = gas_walls(scene, gas);
-        const double pressure = gas_pressure(gas, 0, start_volume(scene, walls));
-        const double sign = std::ranges::find(walls, cloth, &GasWall::cloth)->sign;
-        std::vector<Vec3> forces = areas_borne(scene.cloths[cloth], at);
-        for (Vec3& force : forces) force = times(sign * pressure, force);
-        return forces;
-    }
-    return {};
-}
-
 glsl::GasAreaPush gas_area_push(const ClothModel& cloth) {
     return {cloth.grid.size(), cloth.gas ? static_cast<float>(cloth.gas->sign) : 0.0f, 0};
 }
 
-glsl::GasSumPush gas_sum_push(const ClothModel& cloth) { return {cloth.grid.size(), cloth.gas->own, 0}; }
+glsl::GasSumPush gas_sum_push(const ClothModel& cloth) {
+    const auto exists = [](float weight) { return weight > 0; };
+    const auto origin = std::ranges::find_if(cloth.free_weight, exists) - cloth.free_weight.begin();
+    return {cloth.grid.size(), cloth.gas->own, static_cast<int>(origin)};
+}
 
 glsl::GasPush gas_push(const SimulationModel& model, const ClothModel& cloth, std::uint32_t substep, int joint,
                        bool ends) {

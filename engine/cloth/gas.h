@@ -30,10 +30,9 @@ struct ClothGas {
 
 /// Returns the number of sums of a cloth that closes gas in.
 std::uint32_t gas_sum_count(const ClothModel& cloth);
-/// Gives each cloth of a scene that closes gas in what it has to do with it. Returns the number of sums of all.
+/// Gives each cloth of a scene that closes gas in what it has to do with it, and its half kick (ClothModel::kick).
+/// Returns the number of sums of all.
 std::size_t add_gas(const SceneDescription& scene, std::vector<ClothModel>& cloths);
-/// Returns what gas gives at the start to each particle of a cloth of a scene, which starts there, N; empty: nothing.
-std::vector<Vec3> start_gas_forces(const SceneDescription& scene, std::size_t cloth, const std::vector<Vec3>& at);
 
 glsl::GasAreaPush gas_area_push(const ClothModel& cloth);
 glsl::GasSumPush gas_sum_push(const ClothModel& cloth);

@@ -126,8 +126,8 @@ void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
         throw std::invalid_argument(
             "expected no seams where actions let pins go, take particles or turn gravity: they do not follow these "
             "yet");
-    share_kicks();
     gas_sum_count = add_gas(scene, cloths);
+    share_kicks();
     for (ClothModel& cloth : cloths)
         if (cloth.gas) cloth.wind.gas_sign = static_cast<float>(cloth.gas->sign);
     if (cloths_meet(scene)) self_contact.emplace(scene, cloths, crossed);

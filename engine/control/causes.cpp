@@ -121,7 +121,7 @@ double recoil_of(const SceneDescription& scene, const Cloth& cloth) {
 }
 
 /// Returns the speed, m/s, that gas may give to the cloths which close it in: by the work that it does as it grows from
-/// a volume to e^20 times that at constant temperature.
+/// a volume to e^20 times that at constant temperature, or the surroundings as they press it flat.
 double blown_speed(const SceneDescription& scene, const Cloth& cloth) {
     constexpr double growth = 20;
     for (const Gas& gas : scene.gas) {
@@ -130,7 +130,8 @@ double blown_speed(const SceneDescription& scene, const Cloth& cloth) {
         for (const Cloth& each : scene.cloths)
             if (std::ranges::find(gas.cloths, each.name) != gas.cloths.end())
                 mass += each.areal_density * each.size[0] * each.size[1];
-        return std::sqrt(2 * growth * gas.ambient * most_gas(gas) / mass);
+        const double pressed = std::abs(start_volume(scene, gas_walls(scene, gas)));
+        return std::sqrt(2 * gas.ambient * std::max(growth * most_gas(gas), pressed) / mass);
     }
     return 0;
 }

@@ -135,7 +135,7 @@ struct SpringNetwork {
     Vec3 more_gravity(double time) const;
     /// Returns whether anything but gravity acts from outside.
     bool has_outer_forces() const { return wind.blows() || !loads.empty() || !gas.empty(); }
-    /// Adds what acts on the particles from outside, N, beside gravity: wind and loads.
+    /// Adds what acts on the particles from outside, N, beside gravity: wind, loads and gas.
     void add_outer_forces(std::span<const Vec3> position, std::span<const Vec3> velocity, double time,
                           std::span<Vec3> force) const;
     /// Adds the loads' forces (N). A pressure acts on each quarter of a cell by its area, towards u x v.

@@ -126,6 +126,7 @@ StaticResult find_equilibrium(const SpringNetwork& network, std::span<const Vec3
     if (!is_steady(network.gravity_keys, -always, always))
         throw std::invalid_argument("static reference: where gravity changes, nothing comes to rest");
     if (!network.loads.empty()) throw std::invalid_argument("static reference: it knows no loads");
+    if (!network.gas.empty()) throw std::invalid_argument("static reference: it knows no gas");
     std::vector<Vec3> from(start.begin(), start.end());
     std::uint32_t iterations = 0;
     if (options.soften_first)

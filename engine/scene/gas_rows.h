@@ -18,8 +18,8 @@ inline const Object<Gas> gas{
     "gas",
     "An ideal gas at constant temperature, closed in by cloths that are sewn to a closed surface: (p + ambient) V = "
     "ambient Vn, V being what they close in and p the pressure above ambient, which presses on them outwards. A "
-    "cushion "
-    "is blown up by a Vn that grows. Nothing may open the surface: no cutters, no tear, no seam with rip or close. "
+    "cushion is blown up by a Vn that grows. Nothing may open the surface: no cutters, no tear, no seam with rip or "
+    "close. "
     "Cloths of two gases are not sewn together. Of a seam with unlike numbers of particles each of the coarser side is "
     "at one of the finer side. Exactly one of volume and volume_keys says how much there is.",
     {
@@ -29,8 +29,7 @@ inline const Object<Gas> gas{
         {"volume", &Gas::volume, optional(number(not_negative)), "m^3: Vn, its volume at ambient pressure."},
         {"volume_keys", &Gas::volume_keys, keys_in_time<NumberKey>(gas_key),
          "A volume at ambient pressure that changes; between, before and after its keys as a wind does. A substep has "
-         "it "
-         "at its middle."},
+         "it at its middle."},
         {"ambient", &Gas::ambient, number(positive), "Pa: the absolute pressure outside."},
         {"outside", &Gas::outside, optional(choice<ClothSide>(cloth_side_spellings)),
          "Which side of the first cloth is outside: its front, the side of u x v, or its back. Those of the others "

@@ -15,8 +15,8 @@ std::string statistics_readback_name(const std::string& state);
 void add_statistics(graph::Graph& graph, Pipelines& pipelines, ClothState& state, const SceneInputs& inputs,
                     const SimulationModel& model);
 
-/// Views what the device leaves of a cloth: its record, the sums of its impulses where the scene wants forces, and what
-/// its seams bore where some rip.
+/// Views what the device leaves of a cloth: its record, the sums of its impulses where the scene wants forces, what its
+/// seams bore where some rip, and the state of the gas that it closes in.
 struct StatisticsBytes {
     std::span<const std::byte> record, impulses, seams, gas;
 };

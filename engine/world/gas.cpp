@@ -118,8 +118,9 @@ class Closure {
         }
         for (std::size_t k = 0; k < signs_.size(); ++k)
             if (signs_[k] == 0)
-                return fmt::format("expected cloths that are all sewn together, got \"{}\", which is sewn to no other",
-                                   name(k));
+                return fmt::format(
+                    "expected cloths that are all sewn together, got \"{}\", which nothing sews to \"{}\"", name(k),
+                    name(0));
         return std::nullopt;
     }
     /// 1: the cloth faces as the first one does, -1: it is turned over.
@@ -232,15 +233,13 @@ double start_area(const SceneDescription& scene, std::span<const std::size_t> cl
     return area;
 }
 
-/// Returns whether what is closed in is nothing, beside the rounding of places.
-bool is_flat(double volume, double area) { return std::abs(volume) <= 1e-6 * std::pow(area, 1.5); }
-
 std::optional<GasFault> fault_of_amount(const Gas& gas) {
     const auto is_amount = [](double value) { return value >= 0 && std::isfinite(value); };
     if (gas.volume.has_value() == !gas.volume_keys.empty()) return GasFault{"", "expected a volume or volume_keys"};
     if (gas.volume && !is_amount(*gas.volume)) return GasFault{"/volume", "expected a volume of 0 or more"};
     for (std::size_t k = 0; k < gas.volume_keys.size(); ++k)
-        if (!is_amount(gas.volume_keys[k].value) || (k > 0 && !(gas.volume_keys[k].time > gas.volume_keys[k - 1].time)))
+        if (!is_amount(gas.volume_keys[k].value) || !std::isfinite(gas.volume_keys[k].time) ||
+            (k > 0 && !(gas.volume_keys[k].time > gas.volume_keys[k - 1].time)))
             return GasFault{fmt::format("/volume_keys/{}", k), "expected a volume of 0 or more, and rising times"};
     if (!(gas.ambient > 0 && std::isfinite(gas.ambient))) return GasFault{"/ambient", "expected a pressure above 0"};
     return std::nullopt;
@@ -279,8 +278,16 @@ std::optional<GasFault> fault_of(const SceneDescription& scene, const Gas& gas, 
     const std::vector<std::size_t> cloths = cloths_of(scene, gas);
     Closure closure(scene, cloths);
     if (auto text = closure.close()) return GasFault{"/cloths", std::move(*text)};
-    if (!gas.outside && is_flat(start_volume(scene, gas_walls(scene, gas)), start_area(scene, cloths)))
+    const double volume = start_volume(scene, gas_walls(scene, gas));
+    if (closes_nothing_in(volume, start_area(scene, cloths))) {
+        if (gas.outside) return std::nullopt;
         return GasFault{"", "expected outside, front or back, where the cloths start flat and close nothing in"};
+    }
+    if (volume < 0)
+        return GasFault{"/outside",
+                        fmt::format("expected the side of \"{}\" that is outside where the cloths start, got "
+                                    "that which is inside",
+                                    gas.cloths.front())};
     return std::nullopt;
 }
 
@@ -372,8 +379,15 @@ double start_volume(const SceneDescription& scene, std::span<const GasWall> wall
     return volume;
 }
 
-double gas_pressure(const Gas& gas, double time, double volume) {
-    return volume > 0 ? gas.ambient * (gas_at(gas, time) / volume - 1) : 0;
+bool closes_nothing_in(double volume, double area) { return std::abs(volume) <= 1e-6 * std::pow(area, 1.5); }
+
+double gas_pressure(const Gas& gas, double time, double volume, double yielding) {
+    // As gas_root of shaders/include/gas.h, which has the positive root alone.
+    const double amount = gas_at(gas, time), yields = yielding * gas.ambient;
+    const double both = volume + yields;
+    if (!(both > 0)) return 0;
+    const double root = std::sqrt((volume - yields) * (volume - yields) + 4 * yields * amount);
+    return 2 * gas.ambient * (amount - volume) / (both + root);
 }
 
 }  // namespace drape

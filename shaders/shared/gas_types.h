@@ -19,8 +19,8 @@ struct GasAreaPush {
 
 struct GasSumPush {
     ivec2 grid;
-    int first;  // the cloth's first record among those of all cloths
-    int unused;
+    int first;   // the cloth's first record among those of all cloths
+    int origin;  // the place from which others are measured: a particle that exists
 };
 
 /// A workgroup's sums over particles, of areas A as their places bear them, in the parts of a place that particles are.

@@ -10,8 +10,8 @@ namespace drape::glsl {
 
 /// What a cloth's sewn particles hand on: how the prediction or the pins moved them, whether pins hold them, how the
 /// springs moved them, how contact with colliders did, the force on them, their normals, how they moved before a
-/// substep, how contact between cloths moved them, as a frame ends, where they come apart, and their areas, which gas
-/// moves. Cloths by the line method also hand on which order of step they may take.
+/// substep, how contact between cloths moved them, as a frame ends, where they come apart, and the areas that gas
+/// presses on. Cloths by the line method also hand on which order of step they may take.
 const int seam_predicted = 0, seam_released = 1, seam_solved = 2, seam_touched = 3, seam_forces = 4, seam_normals = 5,
           seam_begun = 6, seam_met = 7, seam_orders = 8, seam_ripped = 9, seam_areas = 10;
 

@@ -93,6 +93,8 @@ const std::vector<SceneBreak> breaks{
     {"", "pins_hold", "pins let go", 2, nullptr, pins_let_go},
     {"", "mass_kept", "border weighs as inside", 2, nullptr, border_weighs_as_inside},
     {"", "cut_pieces", "never cut", to_the_end, never_cut},
+    {"balloon", "stretch", "springs a thousand times too soft", 60, springs_a_thousand_times_too_soft},
+    {"balloon", "supported", "never sewn", to_the_end, never_sewn},
     {"balls_in_net", "pins_follow", "key-framed pins stay", 20, pins_stay},
     {"balls_in_net", "penetration", "no collision", 50, no_collision},
     {"balls_in_net", "stretch", "springs a thousand times too soft", 60, springs_a_thousand_times_too_soft},

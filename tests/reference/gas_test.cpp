@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -55,7 +56,7 @@ TEST_P(GasTest, AtRestPressureTimesVolumeIsWhatTheGasHas) {
         std::printf("%s: p %.2f Pa, V %.6f m^3, (p + Pa) V / (Pa Vn) - 1 = %.2g, V told/true - 1 = %.2g\n",
                     name_of(GetParam()).c_str(), pressure, volume, law - 1, volume / volume_of(scene, twin) - 1);
         EXPECT_GT(pressure, 25);  // method relax leaves cloth softer
-        EXPECT_NEAR(law, 1, 1e-5);
+        EXPECT_NEAR(law, 1, 1e-6);
         EXPECT_NEAR(volume / volume_of(scene, twin), 1, 1e-6);
         EXPECT_NEAR(told(twin).volume, gas_statistics(twin.cloth(1).bytes(Field::gas)).volume, 0);
     }
@@ -84,7 +85,7 @@ TEST(GasStatics, PressureIsTheEnergyThatTheClothsStorePerVolume) {
     const double mean = (pressures[0] + pressures[1]) / 2, stored = energies[1] - energies[0],
                  slope = stored / (volumes[1] - volumes[0]);
     std::printf("p %.2f and %.2f Pa; dE/dV %.2f Pa, %.2g off\n", pressures[0], pressures[1], slope, slope / mean - 1);
-    EXPECT_NEAR(slope / mean, 1, 0.01);
+    EXPECT_NEAR(slope / mean, 1, 2e-3);
 }
 
 TEST_P(GasTest, AFreeBodyKeepsItsMomentum) {
@@ -168,7 +169,9 @@ TEST(GasNetwork, KeepsItsEnergy) {
         const double kinetic = sewn.network.kinetic_energy(state.velocity);
         const double off = std::abs(energy(state, 0.1) - before);
         std::printf("network, steps of %.2g s: energy off by %.2g J, kinetic %.3g J\n", step, off, kinetic);
-        if (last > 0) EXPECT_LT(off, 0.3 * last);
+        if (last > 0) {
+            EXPECT_LT(off, 0.3 * last);
+        }
         EXPECT_LT(off, 1e-3 * kinetic);
         last = off;
     }
@@ -196,36 +199,87 @@ TEST_P(GasTest, StiffGasStaysBounded) {
         }
         std::printf("%s, %u substeps: at most %.3g m from the origin, %.3g Pa\n", name_of(GetParam()).c_str(), substeps,
                     farthest, most);
-        EXPECT_LT(farthest, 2);
+        EXPECT_LT(farthest, 0.5);
     }
 }
 
-TEST_P(GasTest, ForcesAddUpToTheChangeOfMomentum) {
-    SceneDescription scene = gas_cushion(GetParam(), 9, is_explicit() ? 96 : 12, 0.02);
-    scene.cloths[0].pins = {pin_box(4, 4, 4, 4)};
-    Simulated run(scene);
-    std::vector<ClothStatistics> before;
-    double worst = 0, largest = 0;
-    for (std::uint32_t frame = 1; frame <= 12; ++frame) {
-        run.frames(1);
-        const std::vector<ClothStatistics> now = run.all_statistics();
-        for (std::size_t k = 0; k < 2; ++k) {
-            Vec3 sum{};
-            bool blown = false;
-            for (const ForceOnCloth& each : now[k].forces) {
-                sum = plus(sum, each.force);
-                blown = blown || each.by == "loads";
-                largest = std::max(largest, length(each.force));
+/// The half kick of a pressure at the start is that of a gas which the cloths yield to, also where they start flat.
+TEST_P(GasTest, APressureAtTheStartIsBoundedAtAnyNumberOfSubsteps) {
+    for (const std::uint32_t substeps : {1u, 8u, 48u})
+        for (const double bulge : {0.03, 1e-4, 0.0}) {
+            SceneDescription scene = gas_cushion(GetParam(), 13, substeps, bulge, true);
+            scene.gas[0].volume = 1.2 * std::max(*scene.gas[0].volume, 0.002);
+            if (bulge == 0) scene.gas[0].outside = ClothSide::front;
+            const SimulationModel model(scene);
+            Twin twin(model);
+            double fastest = 0, farthest = 0;
+            std::vector<Vec3> before = places_of(twin, 0);
+            for (std::uint32_t frame = 1; frame <= 30; ++frame) {
+                twin.run_frame(frame);
+                const std::vector<Vec3> now = places_of(twin, 0);
+                for (std::size_t i = 0; i < now.size(); ++i) {
+                    ASSERT_TRUE(std::isfinite(length(now[i])));
+                    fastest = std::max(fastest, distance(now[i], before[i]));
+                    farthest = std::max(farthest, length(now[i]));
+                }
+                before = now;
             }
-            EXPECT_TRUE(blown);
-            if (before.empty()) continue;
-            const Vec3 change = times(1 / run.frame_time(), minus(now[k].momentum, before[k].momentum));
-            worst = std::max(worst, length(minus(sum, change)));
+            std::printf("%s, %u substeps, bulge %g m: at most %.3g m in a frame, %.3g m from the origin\n",
+                        name_of(GetParam()).c_str(), substeps, bulge, fastest, farthest);
+            EXPECT_LT(farthest, 0.7);
         }
-        before = now;
+}
+
+TEST_P(GasTest, TwoGasesOfASceneAreAsEachAlone) {
+    const auto run = [&](const SceneDescription& scene, std::size_t cloth) {
+        const SimulationModel model(scene);
+        Twin twin(model);
+        for (std::uint32_t frame = 1; frame <= 6; ++frame) twin.run_frame(frame);
+        return places_of(twin, cloth);
+    };
+    SceneDescription one = gas_cushion(GetParam(), 7, 32, 0.02), other = gas_cushion(GetParam(), 9, 32, 0.03, true);
+    blow_up(one, 0.005, 0.1);
+    blow_up(other, 0.006, 0.05);
+    other.gas[0].ambient = 2e4;
+    SceneDescription both = one;
+    for (Cloth cloth : other.cloths) {
+        cloth.name += "_2";
+        both.cloths.push_back(cloth);
     }
-    std::printf("%s: forces up to %.3g N, off by %.2g N\n", name_of(GetParam()).c_str(), largest, worst);
-    EXPECT_LT(worst, 1e-4 * largest);
+    for (Seam seam : other.seams) {
+        for (SeamSide* side : {&seam.a, &seam.b}) side->cloth += "_2";
+        both.seams.push_back(seam);
+    }
+    both.gas.push_back(other.gas[0]);
+    for (std::string& name : both.gas[1].cloths) name += "_2";
+    for (std::size_t cloth = 0; cloth < 2; ++cloth) {
+        EXPECT_EQ(run(both, cloth), run(one, cloth));
+        EXPECT_EQ(run(both, 2 + cloth), run(other, cloth));
+    }
+}
+
+/// What gas gives to a cloth is told with its loads: a closed body as a whole gets nothing, each half what the other
+/// one gets, which is the pressure times the area of the flat rim.
+TEST_P(GasTest, ForcesOnTheHalvesAreThePressureTimesTheAreaOfTheirRim) {
+    SceneDescription scene = gas_cushion(GetParam(), 9, is_explicit() ? 96 : 12, 0.02);
+    blow_up(scene, 0.0125, 0.2);
+    for (Cloth& cloth : scene.cloths) cloth.damping = 20;
+    Simulated run(scene);
+    run.frames(90);
+    const std::vector<ClothStatistics> now = run.all_statistics();
+    std::array<Vec3, 2> loads{};
+    for (std::size_t k = 0; k < 2; ++k)
+        for (const ForceOnCloth& each : now[k].forces)
+            if (each.by == "loads") loads[k] = plus(loads[k], each.force);
+    const std::vector<Vec3> at = places_of(run.twin(), 0);
+    Vec3 area{};
+    for (const Vec3& own : areas_borne(scene.cloths[0], at)) area = plus(area, own);
+    const double expected = told(run.twin()).pressure * length(area);
+    std::printf("%s: %.6g and %.6g N, p A %.6g N\n", name_of(GetParam()).c_str(), length(loads[0]), length(loads[1]),
+                expected);
+    EXPECT_GT(expected, 1);
+    EXPECT_NEAR(length(loads[0]) / expected, 1, 1e-3);
+    EXPECT_LT(length(plus(loads[0], loads[1])), 1e-5 * expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, GasTest,

@@ -1,10 +1,13 @@
 // What does not close gas in is told, with its place; what does is found, with its sides.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drape/scene_reader.h"
+#include "support/gas_scenes.h"
 #include "world/gas.h"
 
 namespace drape {
@@ -97,6 +100,58 @@ TEST(GasRules, TellWhereMoreThanTwoSidesMeet) {
                       "],\n\"gas\": [{\"cloths\": [\"a\", \"b\", \"c\"], \"volume\": 1, \"outside\": \"front\"}]}"),
         (GasTexts{"2: /gas/0/cloths: expected two sides of the surface at each place of its seams, got more at \"c\" "
                   "along its edge top"}));
+}
+
+using Sides = std::array<std::string, 2>;
+
+std::string side(const std::string& cloth, const std::string& edge) {
+    return R"({"cloth": ")" + cloth + R"(", "edge": ")" + edge + "\"}";
+}
+
+/// Squares of 1 m whose sides are sewn as `seams` says.
+std::string sewn_together(const std::vector<std::string>& cloths, const std::vector<Sides>& seams,
+                          const std::string& gas) {
+    std::string text = R"({"cloths": [)", comma;
+    for (const std::string& cloth : cloths)
+        text += std::exchange(comma, ", ") + R"({"name": ")" + cloth + R"(", "grid": [5, 5]})";
+    text += R"(], "seams": [)";
+    comma.clear();
+    for (const auto& [a, b] : seams) text += std::exchange(comma, ", ") + R"({"a": )" + a + R"(, "b": )" + b + "}";
+    return text + "],\n\"gas\": [" + gas + "]}";
+}
+
+/// The seams by which two squares lie on each other.
+std::vector<Sides> on_each_other(const std::string& a, const std::string& b) {
+    std::vector<Sides> seams;
+    for (const std::string edge : {"left", "right", "top", "bottom"}) seams.push_back({side(a, edge), side(b, edge)});
+    return seams;
+}
+
+TEST(GasRules, TellWhatIsNotOneBody) {
+    std::vector<Sides> seams = on_each_other("a", "b");
+    for (const Sides& seam : on_each_other("c", "d")) seams.push_back(seam);
+    EXPECT_EQ(errors_of_gas(sewn_together({"a", "b", "c", "d"}, seams,
+                                          R"({"cloths": ["a", "b", "c", "d"], "volume": 1, "outside": "front"})")),
+              (GasTexts{"2: /gas/0/cloths: expected cloths that are all sewn together, got \"c\", which nothing "
+                        "sews to \"a\""}));
+    seams.push_back({side("b", "left"), side("c", "left")});
+    EXPECT_EQ(errors_of_gas(sewn_together({"a", "b", "c", "d"}, seams,
+                                          R"({"cloths": ["a", "b"], "volume": 1, "outside": "front"},
+{"cloths": ["c", "d"], "volume": 1, "outside": "front"})")),
+              (GasTexts{"3: /gas/1/cloths: expected no seam with a cloth of another gas, got one of \"c\""}));
+}
+
+TEST(GasRules, TellASideThatIsInside) {
+    SceneDescription scene = test::gas_cushion(SolverMethod::line, 5, 1, 0.1);
+    for (const auto& [side, faults] : {std::pair{ClothSide::front, 1u}, std::pair{ClothSide::back, 0u}}) {
+        scene.gas[0].outside = side;
+        EXPECT_EQ(gas_faults(scene).size(), faults);
+    }
+    scene.gas[0].outside = ClothSide::front;
+    const GasFault fault = gas_faults(scene).at(0);
+    EXPECT_EQ(fault.below, "/0/outside");
+    EXPECT_EQ(fault.text,
+              "expected the side of \"top\" that is outside where the cloths start, got that which is inside");
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void run_gas_sum(const TwinPlace& where) {
     const auto& [scene, model, state, step, inputs, motions, meeting] = where;
     const auto& push = step.push<GasSumPush>();
     const std::size_t count = state[Field::position].size();
-    const vec3 origin = place_now(where, 0);
+    const vec3 origin = place_now(where, static_cast<std::size_t>(push.origin));
     for (std::size_t group = 0; group * gas_particles < count; ++group) {
         std::array<GasSum, workgroup_width> lanes;
         lanes.fill(empty_gas_sum());
