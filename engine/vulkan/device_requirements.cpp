@@ -83,7 +83,7 @@ constexpr DeviceRequirement requirements[] = {
     {"storage_images", "15 storage images a stage", "the passes with most of them",
      "scenes that need such a pass are refused, with its name",
      [](Facts f) { return f.properties.limits.maxPerStageDescriptorStorageImages >= most_storage_images; }},
-    {"storage_buffers", "10 storage buffers a stage, 15 without `texel_buffers`", "the passes with most of them",
+    {"storage_buffers", "12 storage buffers a stage, 15 without `texel_buffers`", "the passes with most of them",
      "scenes that need such a pass are refused, with its name",
      [](Facts f) {
          return f.properties.limits.maxPerStageDescriptorStorageBuffers >=

@@ -56,6 +56,6 @@ DeviceInfo describe_device(VkPhysicalDevice physical, std::uint32_t index);
 
 /// Counts of descriptors per stage that some pipeline has; texel buffers count as images or, in their place, as
 /// buffers.
-inline constexpr std::uint32_t most_storage_images = 15, most_storage_buffers = 10, most_buffers_for_texels = 15;
+inline constexpr std::uint32_t most_storage_images = 15, most_storage_buffers = 12, most_buffers_for_texels = 15;
 
 }  // namespace drape::vulkan

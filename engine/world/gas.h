@@ -42,8 +42,8 @@ double most_gas(const Gas& gas);
 double start_volume(const SceneDescription& scene, std::span<const GasWall> walls);
 /// Returns whether cloths of an area, m^2, that close a volume in, m^3, close nothing in but the rounding of places.
 bool closes_nothing_in(double volume, double area);
-/// Returns the gauge pressure p, Pa, of a gas at a time, s, in a volume, m^3, that grows by `yielding` p, m^3/Pa; 0 where
-/// it is not above 0.
+/// Returns the gauge pressure p, Pa, of a gas at a time, s, in a volume, m^3, that grows by `yielding` p, m^3/Pa; 0
+/// where it is not above 0.
 double gas_pressure(const Gas& gas, double time, double volume, double yielding = 0);
 
 }  // namespace drape

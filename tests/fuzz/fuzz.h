@@ -13,7 +13,8 @@
 
 #include "world/random.h"
 
-/// Names the function that takes an input. libFuzzer knows one name alone; a program with all of them needs one for each.
+/// Names the function that takes an input. libFuzzer knows one name alone; a program with all of them needs one for
+/// each.
 #ifdef DRAPE_FUZZ_ALONE
 #define DRAPE_FUZZ_ENTRY(name) LLVMFuzzerTestOneInput
 #else

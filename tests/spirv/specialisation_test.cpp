@@ -61,7 +61,8 @@ TEST(Specialisation, IsValidWhateverTheConstants) {
         for (int draw = 0; draw < drawn_values; ++draw) {
             std::vector<SpecializationConstant> constants;
             for (const auto& [constant, id] : vulkan::module_interface(name).constants)
-                if (!is_size(constant)) constants.push_back({constant, static_cast<std::uint32_t>(random() % 3)});
+                if (!is_size(constant))  // at first everything at once, which needs most
+                    constants.push_back({constant, draw == 0 ? 1 : static_cast<std::uint32_t>(random() % 3)});
             const vulkan::SpecialisedModule& made = vulkan::specialised_module(name, constants);
             EXPECT_TRUE(tools.Validate(made.words)) << name << ": " << trouble;
             const std::vector<std::uint32_t> stored = vulkan::texels_as_storage(made.words);
