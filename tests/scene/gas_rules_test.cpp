@@ -154,5 +154,21 @@ TEST(GasRules, TellASideThatIsInside) {
               "expected the side of \"top\" that is outside where the cloths start, got that which is inside");
 }
 
+TEST(GasRules, TellWhatHasNoInside) {
+    // Two squares make a ring of tubes. Its ends meet as a torus has them or, as their places say, turned over.
+    SceneDescription scene = test::gas_cushion(SolverMethod::line, 5, 1, 0.1);
+    scene.seams = {{{"top", SeamEdge::right}, {"bottom", SeamEdge::left}},
+                   {{"top", SeamEdge::top}, {"top", SeamEdge::bottom}},
+                   {{"bottom", SeamEdge::top}, {"bottom", SeamEdge::bottom}},
+                   {{"bottom", SeamEdge::right}, {"top", SeamEdge::left}}};
+    scene.gas[0].outside = {};
+    EXPECT_EQ(gas_faults(scene).size(), 0u);
+    for (std::size_t row = 0; row < 5; ++row) scene.cloths[0].start[5 * row][2] *= -1;
+    const std::vector<GasFault> faults = gas_faults(scene);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].below, "/0/cloths");
+    EXPECT_EQ(faults[0].text, "expected a surface with an inside, got \"top\" and \"bottom\" sewn to a one-sided one");
+}
+
 }  // namespace
 }  // namespace drape
