@@ -49,7 +49,7 @@ void main() {
     int group = int(gl_WorkGroupID.x), count = push.grid.x * push.grid.y;
     int place = group * gas_particles + int(gl_LocalInvocationIndex);
     int end = min((group + 1) * gas_particles, count);
-    // As in torque.comp, the test is not at the bottom.
+    // A test at the bottom would lose sums on a driver, as in torque.comp (docs/devices.md).
     for (; place < end; place += workgroup_width) sum = with_particle(sum, place);
     sum = joined_over_workgroup(sum);
     if (gl_LocalInvocationIndex != 0u) return;

@@ -1,4 +1,4 @@
-// What the steps of gas need to know of the cloths that close it in (world/gas.h). Pure.
+// The steps of gas find here what they need to know of the cloths that close it in (world/gas.h). Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ namespace drape {
 struct ClothModel;
 struct SimulationModel;
 
-/// What a cloth has to do with the gas that it closes in.
+/// Ties a cloth to the gas that it closes in.
 struct ClothGas {
     std::size_t number;  ///< of the gas among the scene's
     double sign;         ///< 1: its front is outside; -1: its back
     int first, count;    ///< the sums of all cloths of the gas among those of all cloths
     int own;             ///< the first of these that is the cloth's
     float ambient;       ///< Pa
-    /// By particle: its part of the place where it is sewn, and what the square of that place's area counts, 1/kg; both
-    /// 0 of what lies between two places, which have its area.
+    /// Each particle has its part of the place where it is sewn, and what the square of that place's area counts, 1/kg;
+    /// both are 0 of what lies between two places, which have its area.
     std::vector<glsl::vec2> shares;
     glsl::GasState start;  ///< at the start: its pressure and volume
 };

@@ -133,7 +133,7 @@ void SimulationModel::add_cloths(const std::vector<StartCrossing>& crossed) {
     if (cloths_meet(scene)) self_contact.emplace(scene, cloths, crossed);
 }
 
-/// What the loads and the gas of one cloth give to a sewn particle moves all that are sewn there.
+/// Lets what the loads and the gas of one cloth give to a sewn particle move all that are sewn there.
 void SimulationModel::share_kicks() {
     const auto is_loaded = [](const Cloth& cloth) { return !cloth.loads.empty(); };
     if (sewn_count == 0 || (scene.gas.empty() && std::ranges::none_of(scene.cloths, is_loaded))) return;

@@ -19,9 +19,8 @@ inline const Object<Gas> gas{
     "An ideal gas at constant temperature, closed in by cloths that are sewn to a closed surface: (p + ambient) V = "
     "ambient Vn, V being what they close in and p the pressure above ambient, which presses on them outwards. A "
     "cushion is blown up by a Vn that grows. Nothing may open the surface: no cutters, no tear, no seam with rip or "
-    "close. "
-    "Cloths of two gases are not sewn together. Of a seam with unlike numbers of particles each of the coarser side is "
-    "at one of the finer side. Exactly one of volume and volume_keys says how much there is.",
+    "close. Cloths of two gases are not sewn together. Of a seam with unlike numbers of particles each of the coarser"
+    " side is at one of the finer side. Exactly one of volume and volume_keys says how much there is.",
     {
         {"cloths", &Gas::cloths,
          without_default(list<std::string>(text(), "an array of 1 to 1024 names of cloths", 1, 1024)),

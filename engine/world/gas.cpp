@@ -382,7 +382,7 @@ double start_volume(const SceneDescription& scene, std::span<const GasWall> wall
 bool closes_nothing_in(double volume, double area) { return std::abs(volume) <= 1e-6 * std::pow(area, 1.5); }
 
 double gas_pressure(const Gas& gas, double time, double volume, double yielding) {
-    // As gas_root of shaders/include/gas.h, which has the positive root alone.
+    // This is gas_root of shaders/include/gas.h in double precision.
     const double amount = gas_at(gas, time), yields = yielding * gas.ambient;
     const double both = volume + yields;
     if (!(both > 0)) return 0;

@@ -24,7 +24,7 @@ double volume_behind(const Cloth& cloth, std::span<const Vec3> at);
 /// pressure, towards the front. Of a closed surface the sum is nothing.
 std::vector<Vec3> areas_borne(const Cloth& cloth, std::span<const Vec3> at);
 
-/// What is wrong with a scene's gas.
+/// Tells what is wrong with a scene's gas.
 struct GasFault {
     std::string below;  ///< JSON pointer of the culprit, from /gas on
     std::string text;   ///< "expected ..."

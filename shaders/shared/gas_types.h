@@ -42,7 +42,7 @@ struct GasPush {
     int unused_x, unused_y;
 };
 
-/// What a gas keeps of a substep: two texels of its cloths' images.
+/// A gas keeps this of a substep, in two texels of its cloths' images.
 struct GasState {
     vec4 now;   // x: pressure above ambient, Pa; y: volume at the substep's start or the frame's end, m^3; z: how much
                 // it would have grown by inertia alone, m^3; w: the substep's length, s, 0 before the first one

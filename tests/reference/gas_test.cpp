@@ -62,7 +62,7 @@ TEST_P(GasTest, AtRestPressureTimesVolumeIsWhatTheGasHas) {
     }
 }
 
-/// By virtual work, a slow growth of the volume stores in the cloths what the gas does: p = dE/dV at rest.
+/// A slow growth of the volume stores in the cloths the work that the gas does (virtual work): p = dE/dV at rest.
 TEST(GasStatics, PressureIsTheEnergyThatTheClothsStorePerVolume) {
     std::vector<double> energies, volumes, pressures;
     for (const double amount : {0.0130, 0.0131}) {

@@ -1,4 +1,4 @@
-// What is closed in by cloths that are sewn to a closed surface.
+// Cloths that are sewn to a closed surface close in a gas, which a scene describes by this.
 #pragma once
 
 #include <optional>
