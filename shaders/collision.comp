@@ -83,11 +83,11 @@ vec3 led_out(ivec2 texel, vec4 start, inout vec3 displacement, vec3 way_out) {
     return whole;
 }
 
-/// Adds to what the substep lost of a particle's displacement.
+/// Adds to what the substep lost of a particle's displacement, with the mark that a collider touched it (gas_sum.comp).
 void keep_lost(ivec2 texel, vec3 lost) {
     vec4 remainder;
     LOAD_VECTOR(remainder, displacement_remainder, texel)
-    STORE_VECTOR(displacement_remainder, texel, vec4(led_sum(remainder.xyz, lost), 0.0f));
+    STORE_VECTOR(displacement_remainder, texel, vec4(led_sum(remainder.xyz, lost), 1.0f));
 }
 
 /// Returns the displacement with which a particle comes to the colliders; w is above 0 if an edge of a collider moved

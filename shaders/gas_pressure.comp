@@ -20,7 +20,7 @@ layout(constant_id = 2) const bool sewn_to_others = false;
 layout(set = 0, binding = 3, r32ui) uniform readonly uimage2D line_control_in;
 layout(set = 0, binding = 4, std430) readonly buffer SewnPlaces { SewnPlace sewn_places[]; };
 
-#define RECORD vec4
+#define RECORD GasSum
 #include "include/workgroup_reduction.h"
 #include "include/last_control.h"
 
@@ -31,7 +31,7 @@ void main() {
     is_bdf2 = false;
     if (second_order) is_bdf2 = next_control(last_control(), push.most_wrong).order == 2u;
     origin = gas_sums[push.first].origin.xyz;
-    vec4 sum = vec4(-0.0f);
+    GasSum sum = empty_gas_sum();
     for (int i = int(gl_LocalInvocationIndex); i < push.count; i += workgroup_width)
         sum = joined(sum, gas_seen(gas_sums[push.first + i], origin));
     sum = joined_over_workgroup(sum);

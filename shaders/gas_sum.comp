@@ -13,6 +13,7 @@ layout(local_size_x = workgroup_width) in;
 PUSH_CONSTANTS(GasSumPush)
 layout(constant_id = 0) const bool lags = false;  // the positions lack the last substep's displacement
 layout(constant_id = 22) const bool second_order = false;
+layout(constant_id = 24) const bool supported = false;
 layout(set = 0, binding = 0, rgba32f) uniform readonly image2D position;
 layout(set = 0, binding = 1, rgba32f) uniform readonly image2D displacement;
 layout(set = 0, binding = 2, rgba32f) uniform readonly image2D displacement_before;
@@ -20,6 +21,7 @@ layout(set = 0, binding = 3, rgba32f) uniform readonly image2D velocity_excess;
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D wind_force;
 layout(set = 0, binding = 5, std430) readonly buffer GasShares { vec2 gas_shares[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer GasSums { GasSum gas_sums[]; };
+layout(set = 0, binding = 7, rgba32f) uniform readonly image2D displacement_remainder;  // w: a collider touches it
 
 #define RECORD GasSum
 #include "include/workgroup_reduction.h"
@@ -38,8 +40,10 @@ GasSum with_particle(GasSum sum, int place) {
     vec3 moved = LOAD(displacement, texel).xyz, inertia = moved;
     if (second_order)
         inertia = gas_inertia(moved, LOAD(displacement_before, texel).xyz, LOAD(velocity_excess, texel).xyz);
+    bool held = start.w == 0.0f, touched = false;
+    if (supported) touched = LOAD(displacement_remainder, texel).w != 0.0f;
     precise vec3 arm = place_now(start.xyz, moved) - origin;
-    return joined(sum, gas_term(LOAD(wind_force, texel).xyz, gas_shares[place], start.w == 0.0f, arm, moved, inertia));
+    return joined(sum, gas_term(LOAD(wind_force, texel).xyz, gas_shares[place], held, touched, arm, moved, inertia));
 }
 
 void main() {

@@ -16,14 +16,14 @@
 namespace drape {
 
 enum class Field : std::uint8_t {
-    position,            ///< xyz: position at the start of the substep, m; at a frame's end the state itself.
-                         ///< w: relative inverse mass; written by the set-up and by `pin release` alone
-    displacement,        ///< xyz: motion within the substep, m (X + d is where the particle is now).
-                         ///< w: share that drag took, or the mark of a release (shaders/include/verlet.h)
-    position_remainder,  ///< rounding that the sum of positions lost, m (compensated sum)
-    displacement_remainder,
-    position_spare,      ///< next state of a method that gathers; image and spare image then change roles
-    displacement_spare,  ///< joined steps write it, too
+    position,                ///< xyz: position at the start of the substep, m; at a frame's end the state itself.
+                             ///< w: relative inverse mass; written by the set-up and by `pin release` alone
+    displacement,            ///< xyz: motion within the substep, m (X + d is where the particle is now).
+                             ///< w: share that drag took, or the mark of a release (shaders/include/verlet.h)
+    position_remainder,      ///< rounding that the sum of positions lost, m (compensated sum)
+    displacement_remainder,  ///< w: 1 where a collider touched the particle in the last substep
+    position_spare,          ///< next state of a method that gathers; image and spare image then change roles
+    displacement_spare,      ///< joined steps write it, too
     position_remainder_spare,
     displacement_remainder_spare,
     line_scratch,              ///< within a pass: two texels by particle of a line (shaders/line.comp)

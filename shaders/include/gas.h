@@ -53,29 +53,24 @@ SHARED GasSum empty_gas_sum() {
 SHARED GasSum joined(GasSum a, GasSum b) {
     precise vec4 origin = vec4(a.origin.x, a.origin.y, a.origin.z, a.origin.w + b.origin.w);
     precise vec4 area = vec4(a.area.x + b.area.x, a.area.y + b.area.y, a.area.z + b.area.z, a.area.w + b.area.w);
-    precise vec4 change = vec4(a.change.x + b.change.x, a.change.y + b.change.y, 0.0f, 0.0f);
+    precise vec4 change = vec4(a.change.x + b.change.x, a.change.y + b.change.y, a.change.z + b.change.z, 0.0f);
     return GasSum(origin, area, change);
 }
 
 /// Returns the terms of a particle. `area` is its place's, `share.x` its part of the place, `share.y` what the square
-/// of that area counts, 1/kg; `arm` is from the origin, `inertia` of gas_inertia.
-SHARED GasSum gas_term(vec3 area, vec2 share, bool held, vec3 arm, vec3 displacement, vec3 inertia) {
+/// of that area counts, 1/kg; `arm` is from the origin, `inertia` of gas_inertia; `touched`: by a collider.
+SHARED GasSum gas_term(vec3 area, vec2 share, bool held, bool touched, vec3 arm, vec3 displacement, vec3 inertia) {
     precise vec3 own = area * share.x;
     precise float square = ordered_dot(area, area) * share.y;
     return GasSum(vec4(0.0f, 0.0f, 0.0f, ordered_dot(arm, own)), vec4(own.x, own.y, own.z, held ? 0.0f : square),
-                  vec4(ordered_dot(displacement, own), ordered_dot(inertia, own), 0.0f, 0.0f));
+                  vec4(ordered_dot(displacement, own), ordered_dot(inertia, own), touched && !held ? square : 0.0f, 0.0f));
 }
 
-/// Returns a sum as seen from the gas's own origin: thrice the volume, the sums of `change`, and that of the squares.
-SHARED vec4 gas_seen(GasSum sum, vec3 origin) {
+/// Returns a sum as seen from another origin.
+SHARED GasSum gas_seen(GasSum sum, vec3 origin) {
     precise vec3 off = vec3(sum.origin.x, sum.origin.y, sum.origin.z) - origin;
     precise float volume = sum.origin.w + ordered_dot(off, vec3(sum.area.x, sum.area.y, sum.area.z));
-    return vec4(volume, sum.change.x, sum.change.y, sum.area.w);
-}
-
-SHARED vec4 joined(vec4 a, vec4 b) {
-    precise vec4 sum = vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w);
-    return sum;
+    return GasSum(vec4(origin.x, origin.y, origin.z, volume), sum.area, sum.change);
 }
 
 /// Returns p of (p + ambient) (volume + yielding p) = ambient amount, the root with p > -ambient, in the form that does
@@ -90,22 +85,34 @@ SHARED float gas_root(float volume, float yielding, float ambient, float amount)
     return yielding > 0.0f || volume > 0.0f ? found : 0.0f;
 }
 
-/// Returns the state of a gas after a substep's pressure is found. `sum`: of gas_seen, of all cloths; `amount`: m^3.
-SHARED GasState gas_next(vec4 sum, GasState last, float amount, bool second_order, GasPush push) {
-    precise float volume = sum.x / 3.0f;
+/// Returns which part of a change of the other forces is believed at once. Places that colliders hold count as if they
+/// yielded, so that other forces seem to undo what the change of p does there. Where half of the places or more are
+/// held, p would swing if all of that were believed; (1 - f)/f is the bound where the part f is held (docs/physics.md).
+SHARED float gas_belief(float squares, float touched) {
+    precise float free = 0.8f * (squares - touched);
+    precise float share = free / touched;
+    float belief = share < least_gas_belief ? least_gas_belief : share;
+    return free < touched ? belief : 1.0f;
+}
+
+/// Returns the state of a gas after a substep's pressure is found. `sum`: of all cloths; `amount`: m^3.
+SHARED GasState gas_next(GasSum sum, GasState last, float amount, bool second_order, GasPush push) {
+    precise float volume = sum.origin.w / 3.0f;
     if (push.ends == 1) return GasState(vec4(last.now.x, volume, last.now.z, last.now.w), last.kept);
     bool begins = last.now.w == 0.0f;
+    precise float others = (sum.change.x - last.now.z) - last.kept.y * last.now.x;
+    float belief = gas_belief(sum.area.w, sum.change.z);
+    precise float learnt = last.kept.x + (others - last.kept.x) * belief;
     // After a change of substeps, how the last one would have gone by inertia is not known in these.
     precise float stretch = (push.step / last.now.w) * (push.step / last.now.w);
-    precise float followed = sum.y - last.now.z;
     precise float scaled = last.kept.x * stretch;
+    float followed = belief < 1.0f ? learnt : others;
     float grown = begins ? 0.0f : last.now.w == push.step ? followed : scaled;
-    float inertia = second_order ? sum.z : sum.y;
-    precise float yielding = sum.w * (second_order ? push.square_step.y : push.square_step.x);
-    float before = begins ? 0.0f : last.now.x;
-    precise float expected = volume + (inertia + grown) - yielding * before;
+    float inertia = second_order ? sum.change.y : sum.change.x;
+    precise float yielding = sum.area.w * (second_order ? push.square_step.y : push.square_step.x);
+    precise float expected = volume + (inertia + grown);
     float pressure = gas_root(expected, yielding, push.ambient, amount);
-    return GasState(vec4(pressure, volume, inertia, push.step), vec4(grown, 0.0f, 0.0f, 0.0f));
+    return GasState(vec4(pressure, volume, inertia, push.step), vec4(grown, yielding, 0.0f, 0.0f));
 }
 
 /// Returns the force of a gas on a particle whose area it turns outwards by `sign`.

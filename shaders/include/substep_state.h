@@ -21,7 +21,7 @@ VECTOR_OUT(3, displacement_out);
 layout(set = 0, binding = 4, rgba32f) uniform readonly image2D position_remainder_in;
 STATE_OUT(5, position_remainder_out);
 layout(set = 0, binding = 6, rgba32f) uniform readonly image2D displacement_remainder_in;
-STATE_OUT(7, displacement_remainder_out);
+VECTOR_OUT(7, displacement_remainder_out);
 layout(constant_id = 23) const bool windy = false;
 VECTOR_OF(readonly, 8, wind_force);  // by its view, so that no stage has more than 8 images
 
@@ -37,7 +37,7 @@ void step_displacement(ivec2 texel, vec4 displacement, vec3 increment, float los
     vec3 counted = dragged_increment(released_increment(increment, displacement.w), loss);
     CompensatedSum stepped = compensated_add(displacement.xyz, counted, LOAD(displacement_remainder_in, texel).xyz);
     STORE_VECTOR(displacement_out, texel, vec4(stepped.value, loss));
-    STORE_STATE(displacement_remainder_out, texel, stepped.remainder, 0.0f);
+    STORE_VECTOR(displacement_remainder_out, texel, vec4(stepped.remainder, 0.0f));
 }
 
 /// Returns the force on the particle of a texel, N; w: its drag, N/m.

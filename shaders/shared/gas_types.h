@@ -27,7 +27,8 @@ struct GasSumPush {
 struct GasSum {
     vec4 origin;  // xyz: m, where x is measured from; w: sum of (x - origin).A, m^3
     vec4 area;    // xyz: sum of A, m^2; w: of |A|^2 over the mass of a place, m^4/kg
-    vec4 change;  // x: sum of d.A, m^3; y: of d'.A, d' being what inertia alone makes of a BDF2 step; z, w: unused
+    vec4 change;  // x: sum of d.A, m^3; y: of d'.A, d' being what inertia alone makes of a BDF2 step; z: the part of
+                  // area.w that colliders touch; w: unused
 };
 
 struct GasPush {
@@ -46,9 +47,12 @@ struct GasPush {
 struct GasState {
     vec4 now;   // x: pressure above ambient, Pa; y: volume at the substep's start or the frame's end, m^3; z: how much
                 // it would have grown by inertia alone, m^3; w: the substep's length, s, 0 before the first one
-    vec4 kept;  // x: how much all forces made it grow, m^3
+    vec4 kept;  // x: how much other forces make it grow in a substep, m^3; y: how much a pascal does, m^3/Pa
 };
 const int gas_texels = 2;
+
+/// The least part of a change by other forces that is believed at once: so p follows them within some 16 substeps.
+const float least_gas_belief = 1.0f / 16.0f;
 
 #ifdef __cplusplus
 }  // namespace drape::glsl

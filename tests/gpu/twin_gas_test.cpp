@@ -35,6 +35,13 @@ TEST_P(TwinGasTest, AFlatStartOnColliders) {
     test::compare(scene);
 }
 
+TEST_P(TwinGasTest, ACushionThatMeetsItselfOnAFloor) {
+    SceneDescription scene = falling(GetParam(), 13, 0.02);
+    scene.colliders = {{Plane{{0, 1, 0}, 0.29}, 0.3}};
+    for (Cloth& cloth : scene.cloths) cloth.self_collision = SelfCollision{0.005, {}};
+    test::compare(scene);
+}
+
 TEST_P(TwinGasTest, UnlikeSides) {
     SceneDescription scene = falling(GetParam(), 9, 0.02);
     Cloth& fine = scene.cloths[1];

@@ -205,7 +205,7 @@ void run_collide(const TwinPlace& where) {
         }
         leave(where, i, made);
         vec4& remainder = state[Field::displacement_remainder][i];
-        remainder = texel(led_sum(xyz(remainder), last.lost));
+        remainder = texel(led_sum(xyz(remainder), last.lost), 1.0f);
     }
 }
 

@@ -62,10 +62,11 @@ void run_gas_sum(const TwinPlace& where) {
                                      ? gas_inertia(moved, xyz(state[Field::displacement_before][i]),
                                                    xyz(state[Field::velocity_excess][i]))
                                      : moved;
+            const bool touched = !scene.scene.colliders.empty() && state[Field::displacement_remainder][i].w != 0.0f;
             GasSum& lane = lanes[(i - begin) % workgroup_width];
-            lane = joined(lane,
-                          gas_term(xyz(state[Field::wind_force][i]), model.gas->shares[i],
-                                   state[Field::position][i].w == 0.0f, place_now(where, i) - origin, moved, inertia));
+            lane = joined(lane, gas_term(xyz(state[Field::wind_force][i]), model.gas->shares[i],
+                                         state[Field::position][i].w == 0.0f, touched, place_now(where, i) - origin,
+                                         moved, inertia));
         }
         GasSum sum = joined_lanes(lanes);
         sum.origin = texel(origin, sum.origin.w);
@@ -87,8 +88,8 @@ bool next_is_bdf2(const TwinPlace& where, const GasPush& push) {
 void run_gas_pressure(const TwinPlace& where) {
     const auto& push = where.step.push<GasPush>();
     const GasSum* const sums = &(*where.state.gas_sums)[static_cast<std::size_t>(push.first)];
-    std::array<vec4, workgroup_width> lanes;
-    lanes.fill({-0.0f, -0.0f, -0.0f, -0.0f});
+    std::array<GasSum, workgroup_width> lanes;
+    lanes.fill(empty_gas_sum());
     for (std::size_t i = 0; i < static_cast<std::size_t>(push.count); ++i)
         lanes[i % workgroup_width] = joined(lanes[i % workgroup_width], gas_seen(sums[i], xyz(sums[0].origin)));
     std::vector<vec4>& texels = where.state[Field::gas];
