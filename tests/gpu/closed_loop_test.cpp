@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "library_device.h"
 #include "picture/frame_copy.h"
 #include "simulation/frame_server.h"
 #include "support/self_contact_scenes.h"
@@ -29,12 +30,6 @@ SceneDescription hanging_by_corners(std::uint32_t frames) {
     cloth.placement = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     cloth.pins = {test::pin_box(0, 0, 0, 0), test::pin_box(32, 0, 32, 0)};
     return automatic(scene, frames);
-}
-
-/// A device for the library's public interface; its messages fail the tests at their end.
-const Device& validated() {
-    static const Device device("", Validation::count);
-    return device;
 }
 
 struct Seen {
@@ -289,14 +284,14 @@ TEST(ClosedLoop, TwoRunsGiveTheSameBytesAndSoDoFramesAskedForOneByOne) {
     ASSERT_EQ(once.efforts.size(), 16u);
     EXPECT_TRUE(std::ranges::equal(once.efforts, twice.efforts, same));
     EXPECT_EQ(once.positions, twice.positions);
-    Simulation simulation(scene, {}, validated());
+    Simulation simulation(scene, {}, test::library_device());
     ASSERT_TRUE(simulation.step());
     for (std::uint32_t frame = 1; simulation.step(); ++frame) {
         const auto& positions = simulation.frame().positions[0];
         EXPECT_TRUE(std::ranges::equal(positions, once.positions[frame - 1])) << "frame " << frame;
         EXPECT_TRUE(same(simulation.frame().effort, once.efforts[frame - 1])) << "frame " << frame;
     }
-    EXPECT_EQ(validated().validation_count(), 0u);
+    EXPECT_EQ(test::library_device().validation_count(), 0u);
 }
 
 TEST(ClosedLoop, TighterLimitsTakeMoreSubstepsAndErrLess) {
@@ -319,7 +314,7 @@ TEST(ClosedLoop, WhatCannotBeKeptIsRefusedWithTheReason) {
     SceneDescription scene = automatic(test::sheet(9, 8, 0.4, 0.3, 1), 6);
     scene.cloths[0].pins = {test::pin_box(0, 0, 0, 0), test::pin_box(8, 0, 8, 0)};
     scene.solver.tolerance = 1e-7;  // below what single precision resolves
-    Simulation simulation(scene, {}, validated());
+    Simulation simulation(scene, {}, test::library_device());
     try {
         while (simulation.step()) {
         }

@@ -4,16 +4,30 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "drape/simulation.h"
 
 namespace drape::test {
 
+/// Ends the device when the tests have run: what validation layers keep for main()'s thread ends before static
+/// variables do, and newer ones are not called after that.
+class LibraryDevice : public testing::Environment {
+  public:
+    const Device& opened() {
+        if (!device_) device_.emplace("", Validation::count);
+        return *device_;
+    }
+    void TearDown() override { device_.reset(); }
+
+  private:
+    std::optional<Device> device_;
+};
+inline auto* const library_environment =
+    static_cast<LibraryDevice*>(testing::AddGlobalTestEnvironment(new LibraryDevice));
+
 /// Validated; the one that main() chose.
-inline const Device& library_device() {
-    static const Device opened("", Validation::count);
-    return opened;
-}
+inline const Device& library_device() { return library_environment->opened(); }
 
 /// Any message of the validation layer fails the test.
 class LibraryTest : public testing::Test {

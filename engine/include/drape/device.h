@@ -26,7 +26,8 @@ constexpr Validation validation_if(bool asked) { return asked ? Validation::prin
 
 struct SceneDescription;
 
-/// An opened device that cloth is simulated on; copies share it.
+/// An opened device that cloth is simulated on; copies share it. One that is validated has to end before main() does,
+/// so it is no static variable: Khronos' layer keeps what it needs by thread.
 class Device {
   public:
     /// `selector`: INDEX, UUID, a unique part of the NAME, or "cpu"; empty: that of the environment variable
