@@ -62,8 +62,9 @@ SHARED GasSum joined(GasSum a, GasSum b) {
 SHARED GasSum gas_term(vec3 area, vec2 share, bool held, bool touched, vec3 arm, vec3 displacement, vec3 inertia) {
     precise vec3 own = area * share.x;
     precise float square = ordered_dot(area, area) * share.y;
-    return GasSum(vec4(0.0f, 0.0f, 0.0f, ordered_dot(arm, own)), vec4(own.x, own.y, own.z, held ? 0.0f : square),
-                  vec4(ordered_dot(displacement, own), ordered_dot(inertia, own), touched && !held ? square : 0.0f, 0.0f));
+    return GasSum(
+        vec4(0.0f, 0.0f, 0.0f, ordered_dot(arm, own)), vec4(own.x, own.y, own.z, held ? 0.0f : square),
+        vec4(ordered_dot(displacement, own), ordered_dot(inertia, own), touched && !held ? square : 0.0f, 0.0f));
 }
 
 /// Returns a sum as seen from another origin.
