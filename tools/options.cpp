@@ -160,20 +160,20 @@ void add_scene_list(CLI::App& command, std::vector<std::string>& paths) {
 }
 
 std::vector<std::string> scene_files(const std::vector<std::string>& paths) {
-    std::vector<std::string> files;
+    std::vector<std::string> found;
     for (const std::string& path : paths) {
         std::error_code error;
         if (!std::filesystem::is_directory(path, error)) {
-            files.push_back(path);
+            found.push_back(path);
             continue;
         }
-        const std::size_t before = files.size();
+        const std::size_t before = found.size();
         for (const auto& entry : std::filesystem::directory_iterator(path, error))
-            if (entry.path().extension() == ".json" && entry.is_regular_file(error)) files.push_back(entry.path());
-        if (files.size() == before) throw UsageError(fmt::format("no .json file in {}", path));
-        std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+            if (entry.path().extension() == ".json" && entry.is_regular_file(error)) found.push_back(entry.path());
+        if (found.size() == before) throw UsageError(fmt::format("no .json file in {}", path));
+        std::sort(found.begin() + static_cast<std::ptrdiff_t>(before), found.end());
     }
-    return files;
+    return found;
 }
 
 void add_required_file(CLI::App& command, const char* name, const std::string& help, std::string& path) {

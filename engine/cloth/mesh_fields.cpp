@@ -33,7 +33,7 @@ void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
         for (std::size_t y = 0; y < rows; ++y) {
             const std::size_t above = std::min<std::size_t>(y + 1, rows - 1);
             const std::size_t beyond = std::min<std::size_t>(z + 1, layers - 1);
-            const auto row = [&, columns = columns, rows = rows](std::size_t of_y, std::size_t of_z) {
+            const auto row = [&](std::size_t of_y, std::size_t of_z) {
                 return field.samples.data() + (of_z * rows + of_y) * columns;
             };
             const float *here = row(y, z), *up = row(above, z), *far = row(y, beyond), *both = row(above, beyond);

@@ -153,10 +153,10 @@ std::uint64_t nested_rounds(const MethodScheme& scheme, const glsl::NestedPush& 
     std::uint64_t rounds = 0;
     for (int block = 0; block < push.block_count; ++block) {
         const glsl::ivec4& entry = scheme.nested_table[static_cast<std::size_t>(block)];
-        const auto [columns, rows] = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
+        const ivec2 size = glsl::nested_box(pin, {entry.x, entry.y}, push.grid).size;
         for (const SpringDirection& direction : spring_directions) {
-            const int lines = direction.offset.y == 0 ? rows : columns;
-            const int particles = direction.offset.y == 0 ? columns : rows;
+            const int lines = direction.offset.y == 0 ? size.y : size.x;
+            const int particles = direction.offset.y == 0 ? size.x : size.y;
             rounds += static_cast<std::uint64_t>(entry.z) * ((lines + width - 1) / width) * (2 * particles + 2);
         }
     }

@@ -167,11 +167,11 @@ struct Key {
                                                  std::string_view required = {})
         : Key(
               name, value.text,
-              [field, read = value.read](const SceneNode& node, Object& object) { return read(node, object.*field); },
+              [field, reads = value.read](const SceneNode& node, Object& object) { return reads(node, object.*field); },
               help, required) {
         if (!value.write || !required.empty()) return;
         text.default_value = value.write(Object{}.*field);
-        write = [field, write = value.write](const Object& object) { return write(object.*field); };
+        write = [field, writes = value.write](const Object& object) { return writes(object.*field); };
     }
     Key(std::string_view name, const ValueText& value, Read read_value, std::string_view help,
         std::string_view required = {})
@@ -185,7 +185,7 @@ struct Key {
     template <class Whole, class Part>
     Key<Whole> within(Part part) const {
         Key<Whole> key(
-            {}, {}, [part, read = read](const SceneNode& node, Whole& whole) { return read(node, part(whole)); }, {});
+            {}, {}, [part, reads = read](const SceneNode& node, Whole& whole) { return reads(node, part(whole)); }, {});
         key.text = text;
         key.uses = uses;
         return key;

@@ -88,9 +88,8 @@ struct Wind {
     double lift = 0.5;            ///< Cl
     std::vector<VectorKey> keys;  ///< m/s, strictly increasing in time; empty: the velocity is steady
     bool blows() const {
-        constexpr Vec3 none{0, 0, 0};
-        if (keys.empty()) return velocity != none;
-        return std::ranges::any_of(keys, [&](const VectorKey& key) { return key.value != none; });
+        if (keys.empty()) return velocity != Vec3{};
+        return std::ranges::any_of(keys, [](const VectorKey& key) { return key.value != Vec3{}; });
     }
     bool operator==(const Wind&) const = default;
 };
