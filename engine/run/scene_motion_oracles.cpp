@@ -95,6 +95,15 @@ Verdict swing(const SceneRun& run, const Limits& limits) {
 /// Returns the component of a vector along the vertical.
 double about_up(const SceneRun& run, const Vec3& v) { return v[up_axis(run.scene.up)]; }
 
+/// Returns a particle's velocity at a frame, m/s, from two frames before to two after it: to the fourth order of a
+/// frame's length, since a flag flutters within few frames.
+Vec3 velocity_at(const SceneRun& run, std::size_t frame, std::uint32_t particle) {
+    const auto moved = [&](std::size_t by) {
+        return minus(run.at(frame + by, 0, particle), run.at(frame - by, 0, particle));
+    };
+    return times(run.scene.time.fps / 12, minus(times(8, moved(1)), moved(2)));
+}
+
 /// Returns the torque of the wind about the vertical through `pole`, N m, by the scene format's force law.
 double wind_torque(const SceneRun& run, const Grid& grid, std::size_t frame, const Vec3& pole) {
     const Wind& wind = run.scene.wind;
@@ -105,8 +114,7 @@ double wind_torque(const SceneRun& run, const Grid& grid, std::size_t frame, con
                    normal = cross(minus(run.at(frame, 0, in_row), x), minus(run.at(frame, 0, in_column), x));
         const double area = length(normal) / 4;
         if (area == 0) return;
-        const Vec3 moved = minus(run.at(frame + 1, 0, particle), run.at(frame - 1, 0, particle));
-        const Vec3 relative = minus(air, times(run.scene.time.fps / 2, moved));
+        const Vec3 relative = minus(air, velocity_at(run, frame, particle));
         const Vec3 unit = times((dot(normal, relative) < 0 ? -0.25 : 0.25) / area, normal);
         const Vec3 force =
             times(0.5 * wind.air_density * area, plus(times((wind.drag - wind.lift) * dot(relative, unit), relative),
@@ -139,8 +147,8 @@ Verdict torque(const SceneRun& run, const Limits& limits) {
     const ClothMeasure measure(run.scene, 0);
     const Vec3 pole = run.at(0, 0, 0);
     const double dt = 1 / run.scene.time.fps, c = run.scene.cloths[0].damping;
-    const std::size_t first = std::max<std::size_t>(limits.index("from_frame"), 1),
-                      last = std::min(limits.index("until_frame"), run.last_frame());
+    const std::size_t first = std::max<std::size_t>(limits.index("from_frame"), 2),
+                      last = std::min(limits.index("until_frame"), std::max<std::size_t>(run.last_frame(), 1) - 1);
     if (first >= last) return {false, "there are no such frames"};
     double before = angular_momentum(run, measure, first - 1, pole), expected = before, impulse = 0, worst = 0;
     for (std::size_t frame = first; frame < last; ++frame) {
