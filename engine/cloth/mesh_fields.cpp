@@ -33,8 +33,8 @@ void append(const DistanceField& field, std::vector<glsl::vec4>& texels) {
         for (std::size_t y = 0; y < rows; ++y) {
             const std::size_t above = std::min<std::size_t>(y + 1, rows - 1);
             const std::size_t beyond = std::min<std::size_t>(z + 1, layers - 1);
-            const auto row = [&](std::size_t of_y, std::size_t of_z) {
-                return field.samples.data() + (of_z * rows + of_y) * columns;
+            const auto row = [&, width = columns, height = rows](std::size_t of_y, std::size_t of_z) {
+                return field.samples.data() + (of_z * height + of_y) * width;
             };
             const float *here = row(y, z), *up = row(above, z), *far = row(y, beyond), *both = row(above, beyond);
             for (std::size_t x = 0; x < columns; ++x) texels.push_back({here[x], up[x], far[x], both[x]});
