@@ -225,7 +225,8 @@ double off_the_law(SolverMethod method, std::uint32_t substeps, bool meets_itsel
     return off;
 }
 
-/// What a floor holds does not yield to p: where that was not known, p swung by 2,000 Pa at 4 substeps, 50 at 16.
+/// The pressure does not move what a floor holds. Where it was expected to, it swung by 2,000 Pa at 4 substeps, 50
+/// at 16.
 TEST(GasOnAFloor, ComesToItsLawAtFewSubsteps) {
     for (const SolverMethod method : {SolverMethod::line, SolverMethod::relax}) {
         for (const std::uint32_t substeps : {4u, 8u, 16u}) EXPECT_LT(off_the_law(method, substeps, false), 5);
