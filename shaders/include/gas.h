@@ -90,7 +90,7 @@ SHARED float gas_root(float volume, float yielding, float ambient, float amount)
 /// yielded, so that other forces seem to undo what the change of p does there. Where half of the places or more are
 /// held, p would swing if all of that were believed; (1 - f)/f is the bound where the part f is held (docs/physics.md).
 SHARED float gas_belief(float squares, float touched) {
-    precise float free = 0.8f * (squares - touched);
+    precise float free = 0.65f * (squares - touched);
     precise float share = free / touched;
     float belief = share < least_gas_belief ? least_gas_belief : share;
     return free < touched ? belief : 1.0f;

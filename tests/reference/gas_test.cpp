@@ -210,6 +210,9 @@ double off_the_law(SolverMethod method, std::uint32_t substeps, bool meets_itsel
     blow_up(scene, 0.0045, 0.3);
     scene.gravity = {0, -9.81, 0};
     scene.colliders = {{Plane{{0, 1, 0}, 0.2}, 0.6}};
+    // The lighter one comes to lie on the floor, and yields more than the other one, if it does: more than half is
+    // held.
+    std::swap(scene.cloths[0].areal_density, scene.cloths[1].areal_density);
     for (Cloth& cloth : scene.cloths)
         if (meets_itself) cloth.self_collision = SelfCollision{0.005, {}};
     const SimulationModel model(scene);
